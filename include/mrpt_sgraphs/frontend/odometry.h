@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mrpt_sgraphs/frontend/motion_buffers.h"
+#include "mrpt_sgraphs/frontend/point_cloud.h"
+#include "mrpt_sgraphs/frontend/registration.h"
+#include "mrpt_sgraphs/frontend/voxel_map.h"
+#include "mrpt_sgraphs/geometry/pose.h"
+
+namespace mrpt_sgraphs {
+
+/// How a scan is placed. The defaults suit 16 to 128 beams carried by a walking robot indoors.
+struct OdometryConfig {
+  VoxelMapConfig map;
+  RegistrationConfig registration;
+  double max_acceleration_m_s2 = 3.0;        ///< How wrong a constant velocity may be.
+  double max_angular_acceleration_rad_s2 = 8.0;  ///< The same for turning.
+  double local_map_radius_m = 60.0;          ///< What is farther from the robot is forgotten.
+  int registration_points = 2500;            ///< Points of a scan that are registered.
+  int map_points = 12000;                    ///< Points of a scan that go into the local map.
+  double odom_in_sigma_m_per_m = 0.05;       ///< Error of the robot's odometry over a distance.
+  double odom_in_sigma_rad_per_m = 0.02;     ///< ... and of its heading.
+  double max_gap_s = 3.0;                    ///< A longer pause tells nothing of the motion in it.
+
+  template <typename Self, typename Field>
+  static void fields(Self& self, Field&& field) {
+    VoxelMapConfig::fields(self.map, field);
+    RegistrationConfig::fields(self.registration, field);
+    field("max_acceleration_m_s2", self.max_acceleration_m_s2, 0.1, 100.0);
+    field("max_angular_acceleration_rad_s2", self.max_angular_acceleration_rad_s2, 0.1, 1000.0);
+    field("local_map_radius_m", self.local_map_radius_m, 5.0, 1000.0);
+    field("registration_points", self.registration_points, 100, 100000);
+    field("map_points", self.map_points, 100, 1000000);
+    field("odom_in_sigma_m_per_m", self.odom_in_sigma_m_per_m, 1e-4, 1.0);
+    field("odom_in_sigma_rad_per_m", self.odom_in_sigma_rad_per_m, 1e-4, 1.0);
+    field("max_gap_s", self.max_gap_s, 0.1, 100.0);
+  }
+};
+
+/// Where a scan was taken, in the odometry's own frame.
+struct OdometryResult {
+  double stamp_s = 0.0;
+  Pose T_odom_base = Pose::Identity();  ///< At the header stamp.
+  Tangent velocity_base = Tangent::Zero();  ///< [m/s, rad/s] during the scan.
+  /// Of the motion since the last scan (right perturbation of T_odom_base, `[t; theta]`).
+  Matrix6 covariance = Matrix6::Identity();
+  Cloud::Ptr deskewed;       ///< The scan as if it had been taken at its stamp; base frame.
+  bool registered = false;   ///< False: the pose is a prediction only.
+  int degenerate_directions = 0;  ///< Directions that were left to the prediction.
+  double inlier_ratio = 0.0;
+  int iterations = 0;
+  double deskew_ms = 0.0;    ///< CPU
+  double register_ms = 0.0;  ///< CPU
+  double map_ms = 0.0;       ///< CPU
+  std::string problem;       ///< Why the pose is not to be trusted; empty if it is.
+};
+
+/// LiDAR odometry: each scan is deskewed by its own motion and registered to a local map of planes.
+///
+/// Pose and velocity at the scan's stamp are estimated together (12 unknowns): a point measured at
+/// time tau sits at T exp(tau v) p, so a sweep that a gait distorts is straightened by what it shows
+/// itself. The end of the last scan predicts the start of this one, with an uncertainty from the
+/// largest acceleration; directions that the scan does not constrain stay with that prediction. An
+/// IMU supplies the turning within the scan where there is one, `odom_in` the motion between scans.
+class Odometry {
+ public:
+  explicit Odometry(const OdometryConfig& config);
+
+  void addImu(const ImuSample& sample) { imu_.add(sample); }
+  void addOdom(const OdomSample& sample) { odom_in_.add(sample); }
+
+  /// @return Nothing for a scan that is not newer than the last one.
+  std::optional<OdometryResult> process(const Cloud& scan);
+
+  /// After a jump in time (a bag that starts again): forgets everything but the parameters.
+  void reset();
+
+ private:
+  /// @param has_gyro  The turning within the scan is known: only its error is left to estimate.
+  MotionPrior predict(double stamp_s, bool has_gyro) const;
+  RegistrationResult placeScan(const std::vector<ScanPoint>& points, const MotionPrior& prior,
+                               const Eigen::Vector3d& viewpoint_base);
+  void start(const Cloud& scan, OdometryResult* result);
+  void placeInMap(const Cloud& deskewed, const Pose& T_odom_base);
+
+  OdometryConfig config_;
+  VoxelMap map_;
+  ImuBuffer imu_;
+  OdomBuffer odom_in_;
+  std::optional<OdometryResult> last_;  ///< Without its cloud.
+  double last_sweep_end_s_ = 0.0;
+  bool last_had_times_ = false;
+  double usual_inlier_ratio_ = 0.5;
+  std::optional<Pose> last_in_map_;  ///< T_odom_base of the last scan that went into the map.
+  int scans_in_map_ = 0;
+  Eigen::Vector3d forgot_at_ = Eigen::Vector3d::Zero();  ///< Where the map last forgot what is far.
+};
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mrpt_sgraphs/graph/snapshot.h"
+#include "mrpt_sgraphs/io/tum.h"
+#include "mrpt_sgraphs/solver/optimization_summary.h"
+
+namespace mrpt_sgraphs {
+
+/// A row of scans.csv.
+struct ScanReport {
+  double stamp_s = 0.0;
+  double prefilter_ms = 0.0;  ///< CPU, as are the others
+  double deskew_ms = 0.0;
+  double register_ms = 0.0;
+  double map_ms = 0.0;
+  double keyframe_ms = 0.0;  ///< selection, thinning, and the back end's work for it
+  bool registered = false;
+  bool keyframe = false;
+};
+
+/// All that a run leaves behind, as values.
+struct RunRecord {
+  Trajectory trajectory;  ///< T_map_base of every scan, after the last optimization.
+  Trajectory odometry;    ///< T_odom_base of every scan.
+  GraphSnapshotConstPtr graph;
+  std::vector<OptimizationSummary> optimizations;
+  std::vector<ScanReport> scans;
+  std::map<std::string, std::string> parameters;  ///< By their full names, as used.
+  double data_s = 0.0;                            ///< Time that the data covers.
+  double wall_s = 0.0;                            ///< Time that the run took.
+  double map_resolution_m = 0.05;
+};
+
+/// Writes a run into a folder, which is made where it is missing: trajectory.tum, odometry.tum,
+/// keyframes.tum, graph.json, graph.g2o, map.pcd, optimizations.csv, scans.csv, report.json. Each
+/// file is written under a temporary name and renamed, so that a file is the old one or the new one.
+/// @throws std::runtime_error naming the file and the reason.
+void writeRun(const std::string& folder, const RunRecord& run);
+
+}  // namespace mrpt_sgraphs

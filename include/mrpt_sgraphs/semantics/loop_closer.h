@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "mrpt_sgraphs/frontend/registration.h"
+#include "mrpt_sgraphs/frontend/voxel_map.h"
+#include "mrpt_sgraphs/graph/snapshot.h"
+#include "mrpt_sgraphs/semantics/scan_context.h"
+
+namespace mrpt_sgraphs {
+
+/// When two keyframes are said to have seen the same place.
+struct LoopCloserConfig {
+  bool enabled = true;
+  double min_radius_m = 3.0;     ///< Candidates are looked for within this distance ...
+  double max_radius_m = 25.0;    ///< ... or, with growing uncertainty, at most this one.
+  double min_path_m = 12.0;      ///< Way between the two: nearer ones are neighbours, not loops.
+  double min_interval_m = 2.0;   ///< Way between two searches.
+  int max_candidates = 3;        ///< Verified per search.
+  int submap_keyframes = 7;      ///< Keyframes around a candidate that are registered against.
+  double min_overlap = 0.6;      ///< Share of the points that must find their plane.
+  double max_rms_m = 0.04;       ///< Of their distances to it.
+  double max_chi2 = 22.5;        ///< Gate on the closed loop, 6 degrees of freedom (0.1 %).
+  double sigma_floor_m = 0.01;   ///< No loop is known better than this
+  double sigma_floor_rad = 0.002;  ///< or this.
+  VoxelMapConfig map;
+  RegistrationConfig registration;
+
+  template <typename Self, typename Field>
+  static void fields(Self& self, Field&& field) {
+    field("enabled", self.enabled);
+    field("min_radius_m", self.min_radius_m, 0.1, 1000.0);
+    field("max_radius_m", self.max_radius_m, 0.1, 1000.0);
+    field("min_path_m", self.min_path_m, 0.0, 1e4);
+    field("min_interval_m", self.min_interval_m, 0.0, 1e3);
+    field("max_candidates", self.max_candidates, 1, 100);
+    field("submap_keyframes", self.submap_keyframes, 1, 100);
+    field("min_overlap", self.min_overlap, 0.05, 1.0);
+    field("max_rms_m", self.max_rms_m, 0.001, 1.0);
+    field("max_chi2", self.max_chi2, 1.0, 1e6);
+    field("sigma_floor_m", self.sigma_floor_m, 1e-4, 1.0);
+    field("sigma_floor_rad", self.sigma_floor_rad, 1e-5, 1.0);
+    VoxelMapConfig::fields(self.map, field);
+    RegistrationConfig::fields(self.registration, field);
+  }
+};
+
+class LoopCloser;
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mrpt_sgraphs/frontend/keyframe_selector.h"
+#include "mrpt_sgraphs/graph/snapshot.h"
+#include "mrpt_sgraphs/semantics/loop_closer.h"
+#include "mrpt_sgraphs/solver/optimization_summary.h"
+#include "mrpt_sgraphs/solver/pose_graph_optimizer.h"
+
+namespace mrpt_sgraphs {
+
+class KeyframeGraph;
+
+/// What adding a keyframe came to.
+struct KeyframeOutcome {
+  KeyframeId id;
+  int loop_closures = 0;                           ///< Believed and added.
+  std::optional<OptimizationSummary> optimization;  ///< Of the optimization that they caused.
+};
+
+/// The back end: keyframes in, a graph with loops closed out. One thread owns it; others read the
+/// snapshots that it hands out.
+class GraphSlam {
+ public:
+  GraphSlam(const LoopCloserConfig& loops, const PoseGraphOptimizerConfig& solver);
+  ~GraphSlam();
+
+  /// Takes the keyframe into the graph, looks for loops and optimizes if there are any.
+  /// @throws std::invalid_argument for a keyframe without a cloud or not newer than the last one.
+  KeyframeOutcome addKeyframe(const Keyframe& keyframe);
+
+  /// Optimizes the whole graph now.
+  OptimizationSummary optimize();
+
+  /// What the graph is now; the same object until it changes.
+  GraphSnapshotConstPtr snapshot() const;
+
+  /// The drift that the graph has found, at the newest keyframe.
+  const Pose& T_map_odom() const { return T_map_odom_; }
+
+ private:
+  std::unique_ptr<KeyframeGraph> graph_;
+  LoopCloser loop_closer_;
+  PoseGraphOptimizerConfig solver_;
+  Pose T_map_odom_ = Pose::Identity();
+  mutable GraphSnapshotConstPtr snapshot_;  ///< Null after a change.
+};
+
+}  // namespace mrpt_sgraphs

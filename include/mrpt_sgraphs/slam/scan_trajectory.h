@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mrpt_sgraphs/graph/snapshot.h"
+#include "mrpt_sgraphs/io/tum.h"
+
+namespace mrpt_sgraphs {
+
+/// Where every scan was, by odometry and after the last optimization.
+class ScanTrajectory {
+ public:
+  void add(double stamp_s, const Pose& T_odom_base) { odometry_.push_back({stamp_s, T_odom_base}); }
+
+  /// One line a scan, as the front end alone said: T_odom_base.
+  const Trajectory& odometry() const { return odometry_; }
+
+  /// One line a scan, T_map_base: the drift found at the keyframes before and after it, shared out
+  /// by time; past the last keyframe that one's.
+  Trajectory corrected(const GraphSnapshot& graph) const;
+
+ private:
+  Trajectory odometry_;
+};
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mrpt_sgraphs/frontend/keyframe_selector.h"
+#include "mrpt_sgraphs/frontend/odometry.h"
+#include "mrpt_sgraphs/frontend/prefilter.h"
+#include "mrpt_sgraphs/semantics/loop_closer.h"
+#include "mrpt_sgraphs/solver/pose_graph_optimizer.h"
+
+namespace mrpt_sgraphs {
+
+/// Every parameter of the pipeline, in sections that have the same names in YAML files, on the
+/// parameter server and here.
+struct SlamConfig {
+  PrefilterConfig prefilter;
+  OdometryConfig odometry;
+  KeyframeConfig keyframes;
+  LoopCloserConfig loop_closure;
+  PoseGraphOptimizerConfig solver;
+
+  /// The one list of sections: `section(name, config)`.
+  template <typename Self, typename Section>
+  static void sections(Self& self, Section&& section) {
+    section("prefilter", self.prefilter);
+    section("odometry", self.odometry);
+    section("keyframes", self.keyframes);
+    section("loop_closure", self.loop_closure);
+    section("solver", self.solver);
+  }
+};
+
+}  // namespace mrpt_sgraphs

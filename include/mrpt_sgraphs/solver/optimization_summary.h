@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace mrpt_sgraphs {
+
+/// What one optimization did, a row of optimizations.csv.
+struct OptimizationSummary {
+  double stamp_s = 0.0;   ///< Of the newest keyframe in it.
+  std::string kind;       ///< room_local | local | global | full
+  std::string mode;       ///< baseline | paper | condensed
+  int keyframes_active = 0;
+  int keyframes_marginalized = 0;
+  int walls = 0;
+  int rooms = 0;
+  int floors = 0;
+  int factors = 0;
+  int free_variables = 0;
+  int iterations = 0;
+  double cost_before = 0.0;  ///< Sum of the weighted squared residuals, robust kernels applied.
+  double cost_after = 0.0;
+  bool converged = false;
+  std::string problem;        ///< Why not, in one sentence; empty if it converged.
+  double total_ms = 0.0;      ///< CPU
+  double linearize_ms = 0.0;  ///< CPU
+  double factorize_ms = 0.0;  ///< CPU
+};
+
+}  // namespace mrpt_sgraphs

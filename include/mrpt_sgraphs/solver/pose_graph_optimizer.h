@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mrpt_sgraphs/solver/optimization_summary.h"
+
+namespace mrpt_sgraphs {
+
+/// How the pose graph is optimized.
+struct PoseGraphOptimizerConfig {
+  int max_iterations = 50;
+  double min_relative_decrease = 1e-6;  ///< Of the cost in one iteration: less is converged.
+  double loop_kernel_chi2 = 12.6;       ///< Loops with a larger chi^2 (6 dof, 5 %) lose weight.
+
+  template <typename Self, typename Field>
+  static void fields(Self& self, Field&& field) {
+    field("max_iterations", self.max_iterations, 1, 10000);
+    field("min_relative_decrease", self.min_relative_decrease, 1e-15, 0.1);
+    field("loop_kernel_chi2", self.loop_kernel_chi2, 0.1, 1e6);
+  }
+};
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mrpt_sgraphs/frontend/odometry.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "mrpt_sgraphs/frontend/levelling.h"
+#include "mrpt_sgraphs/frontend/thinning.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+/// The end of one sweep and the start of the next are known to fit this well.
+constexpr double kSeam_m = 0.005;
+constexpr double kSeam_rad = 0.003;
+/// With a gyroscope the turning within a scan is known up to its bias and noise.
+constexpr double kGyro_rad_s = 0.02;
+constexpr double kGyroTurn_rad = 0.003;  ///< and that between two scans.
+/// Voxel edge that thins a scan for registration, so that near walls do not outvote far ones.
+constexpr double kThinning_m = 0.15;
+/// Times of a scan that all lie closer together than this say nothing of its motion.
+constexpr double kShortSweep_s = 2e-3;
+/// The local map forgets what is far whenever the robot has moved this far.
+constexpr double kForgetEvery_m = 5.0;
+/// Fewer points on their planes than this, and the pose is not to be trusted.
+constexpr double kMinInlierRatio = 0.15;
+/// A share of inliers that falls below this part of the usual one is no good fit.
+constexpr double kSuspicious = 0.8;
+/// How far to the sides a lost scan is looked for.
+constexpr double kSearchYaw_rad = 0.35;
+/// Scans that always go into the map: it starts empty.
+constexpr int kFirstScans = 10;
+/// Later ones only if the robot moved so far since the last that did: standing still would fill the
+/// cells with one view.
+constexpr double kMapEvery_m = 0.05;
+constexpr double kMapEvery_rad = 0.02;
+
+double cpuMilliseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+/// diag(sigma_m^2, sigma_rad^2)^-1
+Matrix6 informationOf(double sigma_m, double sigma_rad) {
+  Tangent information;
+  information << Eigen::Vector3d::Constant(1.0 / (sigma_m * sigma_m)),
+      Eigen::Vector3d::Constant(1.0 / (sigma_rad * sigma_rad));
+  return information.asDiagonal();
+}
+
+/// The first and last time of the points [s]; {0, 0} where there are none worth the name.
+std::pair<double, double> sweepOf(const Cloud& scan) {
+  const auto [first, last] =
+      std::minmax_element(scan.begin(), scan.end(),
+                          [](const Point& a, const Point& b) { return a.time < b.time; });
+  const double from_s = first->time;
+  const double to_s = last->time;
+  return to_s - from_s < kShortSweep_s ? std::make_pair(0.0, 0.0) : std::make_pair(from_s, to_s);
+}
+
+/// The gyroscope's turning over a sweep, R_stamp_base(tau), at equal steps between which one is near
+/// enough.
+class SweepTurning {
+ public:
+  /// Empty where the gyroscope has nothing to say.
+  SweepTurning(const ImuBuffer& imu, double stamp_s, double from_s, double to_s) : from_s_(from_s) {
+    if (to_s <= from_s) return;
+    constexpr int kSteps = 100;
+    step_s_ = (to_s - from_s) / kSteps;
+    for (int i = 0; i <= kSteps; ++i) {
+      const auto R = imu.rotation(stamp_s, stamp_s + from_s + i * step_s_);
+      if (!R) {
+        R_stamp_base_.clear();
+        return;
+      }
+      R_stamp_base_.push_back(*R);
+    }
+  }
+
+  bool known() const { return !R_stamp_base_.empty(); }
+
+  Eigen::Vector3d apply(double time_s, const Eigen::Vector3d& p) const {
+    if (!known()) return p;
+    const auto last = static_cast<long>(R_stamp_base_.size()) - 1;
+    const long step = std::clamp(std::lround((time_s - from_s_) / step_s_), 0L, last);
+    return R_stamp_base_[static_cast<std::size_t>(step)] * p;
+  }
+
+ private:
+  double from_s_;
+  double step_s_ = 0.0;
+  std::vector<Eigen::Matrix3d> R_stamp_base_;
+};
+
+std::vector<ScanPoint> pointsToRegister(const Cloud& scan, const SweepTurning& turning,
+                                        bool has_times, int most) {
+  const std::vector<int> kept = firstInVoxels(scan, kThinning_m);
+  const double stride = std::max(1.0, static_cast<double>(kept.size()) / most);
+  std::vector<ScanPoint> points;
+  for (double i = 0.0; i < static_cast<double>(kept.size()); i += stride) {
+    const Point& p = scan[static_cast<std::size_t>(kept[static_cast<std::size_t>(i)])];
+    const double time_s = has_times ? p.time : 0.0;
+    points.push_back({turning.apply(time_s, p.getVector3fMap().cast<double>()), time_s});
+  }
+  return points;
+}
+
+Cloud::Ptr deskew(const Cloud& scan, const SweepTurning& turning, const Tangent& velocity_base,
+                  bool has_times) {
+  Cloud::Ptr deskewed(new Cloud(scan));
+  if (!has_times) return deskewed;
+  for (Point& p : *deskewed) {
+    const ScanPoint measured{turning.apply(p.time, p.getVector3fMap().cast<double>()), p.time};
+    p.getVector3fMap() = pointAtStamp(measured, velocity_base).cast<float>();
+  }
+  return deskewed;
+}
+
+}  // namespace
+
+Odometry::Odometry(const OdometryConfig& config) : config_(config), map_(config.map) {}
+
+void Odometry::reset() { *this = Odometry(config_); }
+
+MotionPrior Odometry::predict(double stamp_s, bool has_gyro) const {
+  const double dt_s = stamp_s - last_->stamp_s;
+  const double unseen_s = last_had_times_ ? std::max(0.0, stamp_s - last_sweep_end_s_) : dt_s;
+  const double acceleration = config_.max_acceleration_m_s2;
+  const double angular_acceleration = config_.max_angular_acceleration_rad_s2;
+
+  MotionPrior prior;
+  Pose T_last_now = Pose::Identity();
+  T_last_now.translation() = dt_s * last_->velocity_base.head<3>();
+  T_last_now.linear() = expSO3(dt_s * last_->velocity_base.tail<3>());
+  double sigma_m = kSeam_m + 0.5 * acceleration * unseen_s * unseen_s;
+  double sigma_rad = kSeam_rad + 0.5 * angular_acceleration * unseen_s * unseen_s;
+  double sigma_rad_s = angular_acceleration * dt_s;
+
+  const auto R_gyro = imu_.rotation(last_->stamp_s, stamp_s);
+  if (R_gyro) {
+    T_last_now.linear() = *R_gyro;
+    sigma_rad = std::min(sigma_rad, kGyroTurn_rad + kGyro_rad_s * dt_s);
+  }
+  prior.pose_information = informationOf(sigma_m, sigma_rad);
+
+  if (const auto T_odom = odom_in_.motion(last_->stamp_s, stamp_s)) {
+    const double distance_m = T_odom->translation().norm();
+    const double turn_rad = logSO3(T_odom->linear()).norm();
+    const Matrix6 odom_information = informationOf(
+        kSeam_m + config_.odom_in_sigma_m_per_m * (distance_m + turn_rad),
+        kSeam_rad + config_.odom_in_sigma_rad_per_m * (distance_m + turn_rad) + 0.1 * turn_rad);
+    const Matrix6 sum = prior.pose_information + odom_information;
+    T_last_now = retract(T_last_now,
+                         sum.ldlt().solve(odom_information * local(T_last_now, *T_odom)));
+    prior.pose_information = sum;
+  }
+
+  prior.mean.T_map_base = last_->T_odom_base * T_last_now;
+  const Eigen::Matrix3d R_now_last = T_last_now.linear().transpose();
+  prior.mean.velocity_base.head<3>() = R_now_last * last_->velocity_base.head<3>();
+  if (has_gyro) {
+    sigma_rad_s = kGyro_rad_s;
+  } else {
+    prior.mean.velocity_base.tail<3>() = last_->velocity_base.tail<3>();
+  }
+  prior.velocity_information = informationOf(kSeam_m + acceleration * dt_s, sigma_rad_s);
+  return prior;
+}
+
+RegistrationResult Odometry::placeScan(const std::vector<ScanPoint>& points,
+                                       const MotionPrior& prior,
+                                       const Eigen::Vector3d& viewpoint_base) {
+  RegistrationResult best =
+      registerScan(points, map_, prior, viewpoint_base, config_.registration);
+  if (best.inlier_ratio < kSuspicious * usual_inlier_ratio_) {
+    // not where it was expected: wider cells, and turned to either side
+    for (const double yaw_rad : {0.0, kSearchYaw_rad, -kSearchYaw_rad}) {
+      MotionPrior turned = prior;
+      turned.mean.T_map_base = retract(
+          prior.mean.T_map_base, (Tangent() << 0.0, 0.0, 0.0, 0.0, 0.0, yaw_rad).finished());
+      const RegistrationResult fit = registerScan(points, map_, turned, viewpoint_base,
+                                                  config_.registration, VoxelMap::kLevels - 1);
+      if (fit.inlier_ratio > best.inlier_ratio) best = fit;
+    }
+  }
+  constexpr double kMemory = 0.9;
+  usual_inlier_ratio_ = kMemory * usual_inlier_ratio_ + (1.0 - kMemory) * best.inlier_ratio;
+  return best;
+}
+
+void Odometry::start(const Cloud& scan, OdometryResult* result) {
+  const Eigen::Vector3d viewpoint = scan.sensor_origin_.head<3>().cast<double>();
+  VoxelMap first(config_.map);
+  for (const Point& p : scan) first.insert(p.getVector3fMap().cast<double>(), viewpoint);
+  first.refit();
+  constexpr double kLevelSpan_s = 1.0;
+  const auto R_level = imu_.level(result->stamp_s - kLevelSpan_s, result->stamp_s + kLevelSpan_s);
+  result->T_odom_base.linear() = R_level ? *R_level : levelFromGround(first.planes(1));
+  result->covariance = informationOf(kSeam_m, kSeam_rad).inverse();
+  result->deskewed.reset(new Cloud(scan));
+  result->registered = true;
+  result->inlier_ratio = 1.0;
+}
+
+void Odometry::placeInMap(const Cloud& deskewed, const Pose& T_odom_base) {
+  if (last_in_map_ && scans_in_map_ >= kFirstScans) {
+    const Tangent motion = local(*last_in_map_, T_odom_base);
+    if (motion.head<3>().norm() < kMapEvery_m && motion.tail<3>().norm() < kMapEvery_rad) return;
+  }
+  last_in_map_ = T_odom_base;
+  ++scans_in_map_;
+
+  const Eigen::Vector3d viewpoint =
+      T_odom_base * Eigen::Vector3d(deskewed.sensor_origin_.head<3>().cast<double>());
+  const double stride = std::max(1.0, static_cast<double>(deskewed.size()) / config_.map_points);
+  for (double i = 0.0; i < static_cast<double>(deskewed.size()); i += stride) {
+    const Point& p = deskewed[static_cast<std::size_t>(i)];
+    map_.insert(T_odom_base * Eigen::Vector3d(p.getVector3fMap().cast<double>()), viewpoint);
+  }
+  map_.refit();
+  if ((T_odom_base.translation() - forgot_at_).norm() > kForgetEvery_m) {
+    map_.eraseBeyond(T_odom_base.translation(), config_.local_map_radius_m);
+    forgot_at_ = T_odom_base.translation();
+  }
+}
+
+std::optional<OdometryResult> Odometry::process(const Cloud& scan) {
+  OdometryResult result;
+  result.stamp_s = stampOf(scan);
+  if (scan.empty() || (last_ && result.stamp_s <= last_->stamp_s)) return std::nullopt;
+
+  double start_ms = cpuMilliseconds();
+  const auto lap = [&start_ms] {
+    const double now_ms = cpuMilliseconds();
+    const double lap_ms = now_ms - start_ms;
+    start_ms = now_ms;
+    return lap_ms;
+  };
+
+  const auto [from_s, to_s] = sweepOf(scan);
+  const bool has_times = to_s > from_s;
+  if (!last_) {
+    start(scan, &result);
+    result.register_ms = lap();
+  } else {
+    const double dt_s = result.stamp_s - last_->stamp_s;
+    const SweepTurning turning(imu_, result.stamp_s, from_s, to_s);
+    MotionPrior prior = predict(result.stamp_s, turning.known());
+    if (dt_s > config_.max_gap_s) {
+      result.problem = "no scan for " + std::to_string(dt_s) + " s";
+    }
+    const std::vector<ScanPoint> points =
+        pointsToRegister(scan, turning, has_times, config_.registration_points);
+    result.deskew_ms = lap();
+    const Eigen::Vector3d viewpoint = scan.sensor_origin_.head<3>().cast<double>();
+    const RegistrationResult fit = placeScan(points, prior, viewpoint);
+    result.register_ms = lap();
+
+    result.registered = fit.matched > 0 && fit.inlier_ratio >= kMinInlierRatio;
+    const MovingPose& pose = result.registered ? fit.estimate : prior.mean;
+    result.T_odom_base = pose.T_map_base;
+    result.velocity_base = pose.velocity_base;
+    result.degenerate_directions = result.registered ? fit.degenerate_directions : 6;
+    result.inlier_ratio = fit.inlier_ratio;
+    result.iterations = fit.iterations;
+    const Matrix6 data = result.registered ? fit.information : Matrix6::Zero();
+    result.covariance = (data + prior.pose_information).inverse();
+    if (!result.registered && result.problem.empty()) {
+      result.problem = "only " + std::to_string(fit.matched) + " of " +
+                       std::to_string(points.size()) + " points lie on the local map";
+    }
+    result.deskewed = deskew(scan, turning, result.velocity_base, has_times);
+    if (has_times && turning.known()) {
+      imu_.correctBias(-result.velocity_base.tail<3>());
+    }
+    if (!has_times || turning.known()) {
+      // what the scan itself could not say: the mean motion since the last one
+      const Pose T_last_now = last_->T_odom_base.inverse() * result.T_odom_base;
+      const Eigen::Matrix3d R_now_last = T_last_now.linear().transpose();
+      if (!has_times) {
+        result.velocity_base.head<3>() = R_now_last * T_last_now.translation() / dt_s;
+      }
+      result.velocity_base.tail<3>() = logSO3(T_last_now.linear()) / dt_s;
+    }
+    result.deskew_ms += lap();
+  }
+
+  if (result.registered) placeInMap(*result.deskewed, result.T_odom_base);
+  result.map_ms = lap();
+
+  last_ = result;
+  last_->deskewed.reset();
+  last_sweep_end_s_ = result.stamp_s + to_s;
+  last_had_times_ = has_times;
+  return result;
+}
+
+}  // namespace mrpt_sgraphs
