@@ -30,8 +30,12 @@ constexpr double kForgetEvery_m = 5.0;
 constexpr double kMinInlierRatio = 0.15;
 /// A share of inliers that falls below this part of the usual one is no good fit.
 constexpr double kSuspicious = 0.8;
-/// How far to the sides a lost scan is looked for.
-constexpr double kSearchYaw_rad = 0.35;
+/// A scan that may be far from its prediction is tried with headings to both sides of it.
+constexpr double kSearchStep_rad = 0.17;
+constexpr double kMaxSearch_rad = 0.8;
+constexpr std::size_t kSearchPoints = 600;
+/// The distance at which an error in heading is weighed against one in position.
+constexpr double kReach_m = 5.0;
 /// Scans that always go into the map: it starts empty.
 constexpr int kFirstScans = 10;
 /// Later ones only if the robot moved so far since the last that did: standing still would fill the
@@ -172,21 +176,43 @@ MotionPrior Odometry::predict(double stamp_s, bool has_gyro) const {
   return prior;
 }
 
+MotionPrior Odometry::bestStart(const std::vector<ScanPoint>& points, const MotionPrior& prior,
+                                const Eigen::Vector3d& viewpoint_base) const {
+  std::vector<ScanPoint> few;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSearchPoints);
+  for (std::size_t i = 0; i < points.size(); i += stride) few.push_back(points[i]);
+
+  const double sigma_rad = 1.0 / std::sqrt(prior.pose_information(5, 5));
+  const int steps = static_cast<int>(std::ceil(std::min(2.0 * sigma_rad, kMaxSearch_rad) / kSearchStep_rad));
+  MotionPrior best = prior;
+  double best_ratio = 0.0;
+  for (int step = -steps; step <= steps; ++step) {
+    MotionPrior start = prior;
+    start.mean.T_map_base.linear() =
+        prior.mean.T_map_base.linear() *
+        Eigen::AngleAxisd(step * kSearchStep_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    const RegistrationResult fit = registerScan(few, map_, start, viewpoint_base,
+                                                config_.registration, VoxelMap::kLevels - 1);
+    if (fit.inlier_ratio > best_ratio) {
+      best_ratio = fit.inlier_ratio;
+      best.mean = fit.estimate;
+    }
+  }
+  return best;
+}
+
 RegistrationResult Odometry::placeScan(const std::vector<ScanPoint>& points,
                                        const MotionPrior& prior,
                                        const Eigen::Vector3d& viewpoint_base) {
   RegistrationResult best =
       registerScan(points, map_, prior, viewpoint_base, config_.registration);
-  if (best.inlier_ratio < kSuspicious * usual_inlier_ratio_) {
-    // not where it was expected: wider cells, and turned to either side
-    for (const double yaw_rad : {0.0, kSearchYaw_rad, -kSearchYaw_rad}) {
-      MotionPrior turned = prior;
-      turned.mean.T_map_base = retract(
-          prior.mean.T_map_base, (Tangent() << 0.0, 0.0, 0.0, 0.0, 0.0, yaw_rad).finished());
-      const RegistrationResult fit = registerScan(points, map_, turned, viewpoint_base,
-                                                  config_.registration, VoxelMap::kLevels - 1);
-      if (fit.inlier_ratio > best.inlier_ratio) best = fit;
-    }
+  const double reach_m = 1.0 / std::sqrt(prior.pose_information(0, 0)) +
+                         kReach_m / std::sqrt(prior.pose_information(5, 5));
+  if (reach_m > config_.map.voxel_size_m || best.inlier_ratio < kSuspicious * usual_inlier_ratio_) {
+    const MotionPrior start = bestStart(points, prior, viewpoint_base);
+    const RegistrationResult fit =
+        registerScan(points, map_, start, viewpoint_base, config_.registration);
+    if (fit.inlier_ratio > best.inlier_ratio) best = fit;
   }
   constexpr double kMemory = 0.9;
   usual_inlier_ratio_ = kMemory * usual_inlier_ratio_ + (1.0 - kMemory) * best.inlier_ratio;

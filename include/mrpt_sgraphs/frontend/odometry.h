@@ -84,6 +84,9 @@ class Odometry {
  private:
   /// @param has_gyro  The turning within the scan is known: only its error is left to estimate.
   MotionPrior predict(double stamp_s, bool has_gyro) const;
+  /// The prior with its mean moved to where a coarse search about it fits best.
+  MotionPrior bestStart(const std::vector<ScanPoint>& points, const MotionPrior& prior,
+                        const Eigen::Vector3d& viewpoint_base) const;
   RegistrationResult placeScan(const std::vector<ScanPoint>& points, const MotionPrior& prior,
                                const Eigen::Vector3d& viewpoint_base);
   void start(const Cloud& scan, OdometryResult* result);
