@@ -30,6 +30,12 @@ constexpr double kForgetEvery_m = 5.0;
 constexpr double kMinInlierRatio = 0.15;
 /// A share of inliers that falls below this part of the usual one is no good fit.
 constexpr double kSuspicious = 0.8;
+/// A pose that is farther from its prediction than this (chi^2, 6 degrees of freedom) was not
+/// predicted at all: it is looked for with a prediction that knows little.
+constexpr double kMaxSurprise = 100.0;
+constexpr double kLost_m = 1.0;
+constexpr double kLost_rad = 0.5;
+constexpr double kLostVelocity = 0.1;  ///< of the information that the velocity is left with
 /// A scan that may be far from its prediction is tried with headings to both sides of it.
 constexpr double kSearchStep_rad = 0.17;
 constexpr double kMaxSearch_rad = 0.8;
@@ -208,8 +214,16 @@ RegistrationResult Odometry::placeScan(const std::vector<ScanPoint>& points,
       registerScan(points, map_, prior, viewpoint_base, config_.registration);
   const double reach_m = 1.0 / std::sqrt(prior.pose_information(0, 0)) +
                          kReach_m / std::sqrt(prior.pose_information(5, 5));
-  if (reach_m > config_.map.voxel_size_m || best.inlier_ratio < kSuspicious * usual_inlier_ratio_) {
-    const MotionPrior start = bestStart(points, prior, viewpoint_base);
+  const Tangent surprise = local(prior.mean.T_map_base, best.estimate.T_map_base);
+  const bool jumped = surprise.dot(prior.pose_information * surprise) > kMaxSurprise ||
+                      best.inlier_ratio < kSuspicious * usual_inlier_ratio_;
+  if (jumped || reach_m > config_.map.voxel_size_m) {
+    MotionPrior loose = prior;
+    if (jumped) {  // scans were lost, stamps lie, or the robot was pushed
+      loose.pose_information = informationOf(kLost_m, kLost_rad);
+      loose.velocity_information *= kLostVelocity;
+    }
+    const MotionPrior start = bestStart(points, loose, viewpoint_base);
     const RegistrationResult fit =
         registerScan(points, map_, start, viewpoint_base, config_.registration);
     if (fit.inlier_ratio > best.inlier_ratio) best = fit;

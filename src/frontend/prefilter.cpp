@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "mrpt_sgraphs/frontend/firing_order.h"
 #include "mrpt_sgraphs/frontend/sweep_time.h"
 
 namespace mrpt_sgraphs {
@@ -128,6 +129,17 @@ bool Prefilter::isOwnBody(const Eigen::Vector3f& p) const {
          p.z() > config_.self_box_min_z_m && p.z() < config_.self_box_max_z_m;
 }
 
+bool Prefilter::timeByFiringOrder(const Pose& T_base_lidar, Cloud* cloud) const {
+  Cloud in_lidar = *cloud;
+  const Eigen::Isometry3f T_lidar_base = T_base_lidar.inverse().cast<float>();
+  for (Point& p : in_lidar) p.getVector3fMap() = T_lidar_base * p.getVector3fMap();
+  const std::vector<float> fractions = sweepFractions(in_lidar);
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    (*cloud)[i].time = fractions[i] * static_cast<float>(config_.sweep_period_s);
+  }
+  return !fractions.empty();
+}
+
 PrefilterResult Prefilter::filter(const RawCloud& raw, const Pose& T_base_lidar,
                                   const std::string& base_frame) const {
   PrefilterResult result;
@@ -203,7 +215,9 @@ PrefilterResult Prefilter::filter(const RawCloud& raw, const Pose& T_base_lidar,
     result.cloud.reset();
     return result;
   }
-  if (time != nullptr) {
+  if (time == nullptr && raw.height == 1 && config_.sweep_period_s > 0.0) {
+    result.has_time = timeByFiringOrder(T_base_lidar, result.cloud.get());
+  } else if (time != nullptr) {
     const bool integers = time->type != Type::kFloat32 && time->type != Type::kFloat64;
     const SweepTimes sweep = sweepTimes(times, raw.stamp_s, integers);
     result.remark = sweep.remark.empty() ? "" : "field '" + time->name + "': " + sweep.remark;

@@ -20,7 +20,7 @@ GraphKeyframe toMsg(const KeyframeNode& node) {
   GraphKeyframe msg;
   msg.id = node.id.value;
   msg.stamp = toRosTime(node.stamp_s);
-  msg.pose = toMsg(node.T_map_base);
+  msg.pose = toPoseMsg(node.T_map_base);
   msg.floor = GraphKeyframe::NONE;
   msg.room = GraphKeyframe::NONE;
   msg.representative = node.id.value;
@@ -39,7 +39,7 @@ GraphFactor toMsg(const RelativePoseEdge& edge) {
 
 ros::Time toRosTime(double stamp_s) { return pcl_conversions::fromPCL(toPclStamp(stamp_s)); }
 
-geometry_msgs::Pose toMsg(const Pose& T) {
+geometry_msgs::Pose toPoseMsg(const Pose& T) {
   geometry_msgs::Pose msg;
   msg.position = tf2::toMsg(Eigen::Vector3d(T.translation()));
   msg.orientation = tf2::toMsg(Eigen::Quaterniond(T.linear()).normalized());
@@ -99,7 +99,7 @@ ScanOdometry toScanOdometry(const OdometryResult& result, const std_msgs::Header
   ScanOdometry msg;
   msg.header = header;
   msg.child_frame_id = base_frame;
-  msg.pose = toMsg(result.T_odom_base);
+  msg.pose = toPoseMsg(result.T_odom_base);
   msg.covariance = toMsg(result.covariance);
   msg.registered = result.registered;
   msg.degenerate_directions = result.degenerate_directions;
@@ -117,7 +117,7 @@ nav_msgs::Odometry toOdometry(const OdometryResult& result, const std_msgs::Head
   nav_msgs::Odometry msg;
   msg.header = header;
   msg.child_frame_id = base_frame;
-  msg.pose.pose = toMsg(result.T_odom_base);
+  msg.pose.pose = toPoseMsg(result.T_odom_base);
   msg.twist.twist = tf2::toMsg(result.velocity_base);
   if (dt_s > 0.0) msg.twist.covariance = toMsg(Matrix6(result.covariance / (dt_s * dt_s)));
   return msg;
@@ -134,7 +134,7 @@ KeyframeStamped toMsg(const Keyframe& keyframe, const std_msgs::Header& header,
   KeyframeStamped msg;
   msg.header = header;
   msg.child_frame_id = base_frame;
-  msg.pose = toMsg(keyframe.T_odom_base);
+  msg.pose = toPoseMsg(keyframe.T_odom_base);
   msg.covariance = toMsg(keyframe.covariance);
   return msg;
 }
@@ -187,7 +187,7 @@ nav_msgs::Path toMsg(const Trajectory& trajectory, const std::string& map_frame)
     geometry_msgs::PoseStamped pose;
     pose.header.stamp = toRosTime(line.stamp_s);
     pose.header.frame_id = map_frame;
-    pose.pose = toMsg(line.T_world_body);
+    pose.pose = toPoseMsg(line.T_world_body);
     msg.poses.push_back(pose);
   }
   return msg;

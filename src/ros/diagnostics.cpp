@@ -6,9 +6,9 @@ namespace mrpt_sgraphs {
 
 Diagnostics::Diagnostics(ros::NodeHandle& nh, const std::string& name, const Fill& fill)
     : updater_(nh, ros::NodeHandle(nh, "diagnostics"), name),
-      timer_(nh.createSteadyTimer(
-          ros::WallDuration(1.0),
-          [this](const ros::SteadyTimerEvent&) { updater_.force_update(); })) {
+      timer_(nh.createSteadyTimer(ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) {
+        updater_.force_update();
+      })) {
   updater_.setHardwareID("none");
   updater_.add("pipeline", fill);
 }

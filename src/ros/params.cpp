@@ -9,6 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "mrpt_sgraphs/slam/slam_config.h"
+
 namespace mrpt_sgraphs {
 namespace {
 

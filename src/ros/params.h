@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "mrpt_sgraphs/slam/slam_config.h"
-
 namespace mrpt_sgraphs {
+
+struct SlamConfig;
 
 /// The parameters in one namespace, read field by field.
 class ParamSection {

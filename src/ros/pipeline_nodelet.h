@@ -11,8 +11,9 @@
 
 namespace mrpt_sgraphs {
 
-/// A nodelet of the pipeline. Topics and parameters lie in its namespace, parameters in sections that
-/// the nodelets share. One that cannot start says why and is not loaded, which ends the launch.
+/// A nodelet of the pipeline. Topics and parameters lie in its namespace, parameters in sections
+/// that the nodelets share. One that cannot start says why and is not loaded, which ends the
+/// launch.
 class PipelineNodelet : public nodelet::Nodelet {
  protected:
   static constexpr std::uint32_t kQueueSize = 100;  ///< Ten seconds of a 10 Hz lidar.

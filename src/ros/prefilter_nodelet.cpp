@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mrpt_sgraphs/frontend/prefilter.h"
-
 #include <pcl_ros/point_cloud.h>
-#include <pluginlib/class_list_macros.hpp>
 #include <sensor_msgs/PointCloud2.h>
 
 #include <memory>
 #include <optional>
+#include <pluginlib/class_list_macros.hpp>
 #include <string>
 
 #include "cloud_trace.h"
 #include "diagnostics.h"
+#include "mrpt_sgraphs/frontend/prefilter.h"
 #include "mrpt_sgraphs/ros/conversions.h"
 #include "pipeline_nodelet.h"
 #include "ros_config.h"
@@ -72,9 +71,9 @@ class PrefilterNodelet final : public PipelineNodelet {
 
   /// Since the last time it was asked for, about a second ago.
   void describe(Diagnostics::Status& status) {
-    const char* const summary = received_ == 0   ? "no cloud arrives"
-                                : passed_ == 0   ? "no cloud can be used"
-                                                 : "clouds arrive";
+    const char* const summary = received_ == 0 ? "no cloud arrives"
+                                : passed_ == 0 ? "no cloud can be used"
+                                               : "clouds arrive";
     status.summary(passed_ == 0 ? Diagnostics::Status::WARN : Diagnostics::Status::OK, summary);
     status.add("topic", topic());
     status.add("clouds received a second", received_);

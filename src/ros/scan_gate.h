@@ -11,8 +11,8 @@
 namespace mrpt_sgraphs {
 
 /// Holds a scan back until the motion sensors have caught up with it: their messages take another
-/// way through the network. It waits for sensors that are there, and never for longer than until the
-/// next scan, 0.1 s of the sensors' time or two ticks.
+/// way through the network. It waits for sensors that are there, and never for longer than until
+/// the next scan, 0.1 s of the sensors' time or two ticks.
 template <typename Scan>
 class ScanGate {
  public:

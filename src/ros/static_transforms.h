@@ -14,8 +14,9 @@
 
 namespace mrpt_sgraphs {
 
-/// Where the sensors sit on the robot, as tf says. Each transform is asked for until it is known, and
-/// then kept: sensors are screwed on, and a bag that starts again may not bring /tf_static again.
+/// Where the sensors sit on the robot, as tf says. Each transform is asked for until it is known,
+/// and then kept: sensors are screwed on, and a bag that starts again may not bring /tf_static
+/// again.
 class StaticTransforms {
  public:
   /// T_base_sensor; identity only if the names are the same. While tf does not know it nothing, and

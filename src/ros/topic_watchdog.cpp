@@ -116,8 +116,9 @@ void TopicWatchdog::check() {
     return;
   }
   quiet_since_ = Clock::now();
-  ROS_WARN("%s", describeSilence(topic_, datatype_, publishedTopics(), ros::this_node::getName())
-                     .c_str());
+  ROS_WARN(
+      "%s",
+      describeSilence(topic_, datatype_, publishedTopics(), ros::this_node::getName()).c_str());
 }
 
 void TopicWatchdog::checkStamp(ros::Time stamp) {
@@ -129,9 +130,10 @@ void TopicWatchdog::checkStamp(ros::Time stamp) {
     ROS_WARN("'%s' arrives, but use_sim_time is set and /clock does not run: play with --clock.",
              topic_.c_str());
   } else {
-    ROS_WARN("The stamps of '%s' lie %.0f s %s ros::Time::now(), so tf will not match them: a bag "
-             "needs use_sim_time and rosbag play --clock, a driver the right time.",
-             topic_.c_str(), std::abs(offset_s), offset_s > 0.0 ? "before" : "after");
+    ROS_WARN(
+        "The stamps of '%s' lie %.0f s %s ros::Time::now(), so tf will not match them: a bag "
+        "needs use_sim_time and rosbag play --clock, a driver the right time.",
+        topic_.c_str(), std::abs(offset_s), offset_s > 0.0 ? "before" : "after");
   }
 }
 

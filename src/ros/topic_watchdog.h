@@ -21,15 +21,15 @@ struct PublishedTopic {
 };
 
 /// Why nothing arrives on `topic`, in one sentence: nobody publishes it, somebody does so under
-/// another type, or nothing was sent yet. Other topics of the right type are named as a hint, but for
-/// those of `own_node`.
+/// another type, or nothing was sent yet. Other topics of the right type are named as a hint, but
+/// for those of `own_node`.
 std::string describeSilence(const std::string& topic, const std::string& datatype,
                             const std::vector<PublishedTopic>& published,
                             const std::string& own_node);
 
-/// Warns within five seconds if nothing arrives on a topic, again and again until something does; and
-/// once if what came falls silent, or is stamped with another time than ROS has. Goes by a steady
-/// clock, since a simulated one that stands still is one of the reasons.
+/// Warns within five seconds if nothing arrives on a topic, again and again until something does;
+/// and once if what came falls silent, or is stamped with another time than ROS has. Goes by a
+/// steady clock, since a simulated one that stands still is one of the reasons.
 class TopicWatchdog {
  public:
   /// @param topic  Its full name, remapped.

@@ -21,6 +21,9 @@ struct PrefilterConfig {
   double self_box_max_x_m = 0.0;
   double self_box_max_y_m = 0.0;
   double self_box_max_z_m = 0.0;
+  /// One turn of a spinning sensor: places the points of a cloud without per-point times in time, if
+  /// they come in the order of firing. 0: such clouds are not deskewed.
+  double sweep_period_s = 0.1;
   int min_points = 50;  ///< A scan with fewer points left says nothing about where it is.
 
   template <typename Self, typename Field>
@@ -33,6 +36,7 @@ struct PrefilterConfig {
     field("self_box_max_x_m", self.self_box_max_x_m, -10.0, 10.0);
     field("self_box_max_y_m", self.self_box_max_y_m, -10.0, 10.0);
     field("self_box_max_z_m", self.self_box_max_z_m, -10.0, 10.0);
+    field("sweep_period_s", self.sweep_period_s, 0.0, 2.0);
     field("min_points", self.min_points, 1, 1000000);
   }
 };
@@ -66,6 +70,8 @@ class Prefilter {
                          const std::string& base_frame) const;
 
  private:
+  /// @return Whether the points come in the order of firing; their times are then set.
+  bool timeByFiringOrder(const Pose& T_base_lidar, Cloud* cloud) const;
   bool isOwnBody(const Eigen::Vector3f& point_base) const;
 
   PrefilterConfig config_;

@@ -29,7 +29,7 @@ namespace mrpt_sgraphs {
 /// To the microsecond, as PCL's stamps are, so that messages of one scan have one stamp.
 ros::Time toRosTime(double stamp_s);
 
-geometry_msgs::Pose toMsg(const Pose& T);
+geometry_msgs::Pose toPoseMsg(const Pose& T);  // toMsg is what tf2_eigen calls its own
 geometry_msgs::TransformStamped toMsg(const Pose& T_parent_child, ros::Time stamp,
                                       const std::string& parent, const std::string& child);
 boost::array<double, 36> toMsg(const Matrix6& matrix);
@@ -46,8 +46,8 @@ RawCloud viewOf(const sensor_msgs::PointCloud2& msg);
 ScanOdometry toScanOdometry(const OdometryResult& result, const std_msgs::Header& header,
                             const std::string& base_frame);
 
-/// Pose and velocity; the covariance is the twist's, and the pose's is left at zero: it grows without
-/// bound along the way, and what is known of each step is in ScanOdometry.
+/// Pose and velocity; the covariance is the twist's, and the pose's is left at zero: it grows
+/// without bound along the way, and what is known of each step is in ScanOdometry.
 /// @param dt_s  Time since the last scan.
 nav_msgs::Odometry toOdometry(const OdometryResult& result, const std_msgs::Header& header,
                               const std::string& base_frame, double dt_s);
@@ -56,7 +56,8 @@ nav_msgs::Odometry toOdometry(const OdometryResult& result, const std_msgs::Head
 std::optional<ScanMotion> toScanMotion(const ScanOdometry& msg);
 KeyframeStamped toMsg(const Keyframe& keyframe, const std_msgs::Header& header,
                       const std::string& base_frame);
-/// Without its cloud, which comes as a message of its own. Nothing for a message whose pose is none.
+/// Without its cloud, which comes as a message of its own. Nothing for a message whose pose is
+/// none.
 std::optional<Keyframe> toKeyframe(const KeyframeStamped& msg);
 
 SituationalGraph toMsg(const GraphSnapshot& graph, const std::string& map_frame);

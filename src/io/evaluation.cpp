@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mrpt_sgraphs/io/evaluation.h"
+
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+
+#include "mrpt_sgraphs/io/pcd_reader.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path truthFile(const fs::path& path) {
+  if (!fs::exists(path)) throw std::runtime_error("there is no truth '" + path.string() + "'");
+  if (!fs::is_directory(path)) return path;
+  for (const fs::path& file : {path / "truth" / "trajectory.tum", path / "trajectory.tum"}) {
+    if (fs::exists(file)) return file;
+  }
+  throw std::runtime_error("'" + path.string() +
+                           "' holds neither truth/trajectory.tum nor trajectory.tum");
+}
+
+TrajectoryErrors evaluateFile(const Truth& truth, const fs::path& file, double max_dt_s) {
+  const Trajectory trajectory = readTum(file.string());
+  try {
+    return evaluateTrajectory(truth.trajectory, trajectory, max_dt_s);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error("'" + file.string() + "': " + error.what());
+  }
+}
+
+}  // namespace
+
+Truth readTruth(const std::string& path) {
+  const fs::path file = truthFile(path);
+  Truth truth;
+  truth.path = file.string();
+  truth.trajectory = readTum(file.string());
+  const fs::path building = file.parent_path() / "building.json";
+  if (fs::exists(building)) truth.surfaces = readBuildingSurfaces(building.string());
+  return truth;
+}
+
+RunEvaluation evaluateRun(const Truth& truth, const std::string& run, double max_dt_s) {
+  RunEvaluation result;
+  result.name = run;
+  const fs::path folder = run;
+  if (!fs::exists(folder)) throw std::runtime_error("there is no run '" + run + "'");
+  if (!fs::is_directory(folder)) {
+    result.trajectory = evaluateFile(truth, folder, max_dt_s);
+    return result;
+  }
+
+  result.trajectory = evaluateFile(truth, folder / "trajectory.tum", max_dt_s);
+  const fs::path odometry = folder / "odometry.tum";
+  if (fs::exists(odometry)) result.odometry = evaluateFile(truth, odometry, max_dt_s);
+  const fs::path map = folder / "map.pcd";
+  if (fs::exists(map) && !truth.surfaces.empty()) {
+    result.map = evaluateMap(truth.surfaces, readPcd(map.string()), result.trajectory.T_truth_run);
+  }
+  const fs::path optimizations = folder / "optimizations.csv";
+  if (fs::exists(optimizations)) {
+    result.optimizations = readOptimizationTimes(optimizations.string());
+  }
+  return result;
+}
+
+double reductionPercent(const RunEvaluation& run, const RunEvaluation& baseline) {
+  const auto hasTimes = [](const RunEvaluation& r) {
+    return r.optimizations && r.optimizations->all.count > 0 && r.optimizations->all.mean_ms > 0.0;
+  };
+  if (!hasTimes(run) || !hasTimes(baseline)) return std::numeric_limits<double>::quiet_NaN();
+  return 100.0 * (1.0 - run.optimizations->all.mean_ms / baseline.optimizations->all.mean_ms);
+}
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <nlohmann/json.hpp>
+
+#include "mrpt_sgraphs/io/evaluation.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+using Json = nlohmann::ordered_json;  // writes NaN as null
+
+Json toJson(const ErrorStatistics& e) {
+  return {{"rmse", e.rmse}, {"mean", e.mean}, {"median", e.median}, {"max", e.max}};
+}
+
+Json toJson(const RelativeError& e) {
+  return {{"segments", e.segments},
+          {"translation_percent", e.translation_percent},
+          {"rotation_deg_per_m", e.rotation_deg_per_m}};
+}
+
+Json toJson(const Pose& T) {
+  const Eigen::Quaterniond q(T.linear());
+  const Eigen::Vector3d t = T.translation();
+  return {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+Json toJson(const TrajectoryErrors& e) {
+  return {{"poses", e.poses},
+          {"paired", e.paired},
+          {"poses_without_truth", e.run_unpaired},
+          {"truth_without_pose", e.truth_unpaired},
+          {"T_truth_run", toJson(e.T_truth_run)},
+          {"ate_m", toJson(e.ate_m)},
+          {"ate_z_m", toJson(e.ate_z_m)},
+          {"rpe",
+           {{"per_scan",
+             {{"translation_rmse_m", e.per_scan.translation_rmse_m},
+              {"rotation_rmse_deg", e.per_scan.rotation_rmse_deg}}},
+            {"over_1m", toJson(e.over_1m)},
+            {"over_10m", toJson(e.over_10m)}}}};
+}
+
+Json toJson(const MapError& e) {
+  return {{"points", e.points},
+          {"points_used", e.points_used},
+          {"median_m", e.median_m},
+          {"p90_m", e.p90_m}};
+}
+
+Json toJson(const TimeStatistics& t) {
+  return {{"count", t.count},
+          {"mean_ms", t.mean_ms},
+          {"p50_ms", t.p50_ms},
+          {"p95_ms", t.p95_ms},
+          {"max_ms", t.max_ms}};
+}
+
+Json toJson(const OptimizationTimes& times) {
+  Json by_kind = Json::object();
+  for (const auto& [kind, statistics] : times.by_kind) by_kind[kind] = toJson(statistics);
+  return {{"all", toJson(times.all)}, {"by_kind", by_kind}};
+}
+
+template <typename T>
+Json toJson(const std::optional<T>& value) {
+  return value ? toJson(*value) : Json(nullptr);
+}
+
+}  // namespace
+
+std::string evaluationJson(const Truth& truth, const std::vector<RunEvaluation>& runs) {
+  Json list = Json::array();
+  for (const RunEvaluation& run : runs) {
+    list.push_back({{"run", run.name},
+                    {"trajectory", toJson(run.trajectory)},
+                    {"odometry", toJson(run.odometry)},
+                    {"map", toJson(run.map)},
+                    {"optimizations", toJson(run.optimizations)},
+                    {"reduction_percent", reductionPercent(run, runs.front())}});
+  }
+  const Json report{
+      {"truth", truth.path}, {"truth_poses", truth.trajectory.size()}, {"runs", list}};
+  constexpr int kIndent = 1;
+  return report.dump(kIndent) + "\n";
+}
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
+#include "mrpt_sgraphs/io/evaluation.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+using Row = std::vector<std::string>;
+
+constexpr int kLengthDigits = 4;  ///< Tenths of a millimetre.
+constexpr int kTimeDigits = 3;    ///< Microseconds.
+
+/// A number, or a dash where there is none.
+std::string text(double value, int digits) {
+  if (!std::isfinite(value)) return "-";
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::fixed << std::setprecision(digits) << value;
+  return out.str();
+}
+
+/// Words to the left (the first `words` columns), numbers to the right.
+std::string layOut(const std::string& title, const std::vector<Row>& rows, std::size_t words) {
+  if (rows.size() < 2) return "";  // the heads alone
+  std::vector<std::size_t> widths(rows[0].size(), 0);
+  for (const Row& row : rows) {
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  }
+  std::ostringstream out;
+  out << title << "\n";
+  for (const Row& row : rows) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      out << "  " << (k < words ? std::left : std::right) << std::setw(static_cast<int>(widths[k]))
+          << row[k];
+    }
+    out << "\n";
+  }
+  return out.str() + "\n";
+}
+
+/// Calls `row(run, "trajectory" | "odometry", errors)` for everything that has a trajectory.
+template <typename Row>
+void forEachTrajectory(const std::vector<RunEvaluation>& runs, Row&& row) {
+  for (const RunEvaluation& run : runs) {
+    row(run.name, "trajectory", run.trajectory);
+    if (run.odometry) row(run.name, "odometry", *run.odometry);
+  }
+}
+
+std::string absoluteTable(const std::vector<RunEvaluation>& runs) {
+  std::vector<Row> rows{
+      {"run", "of", "poses", "no truth", "missing", "rmse", "mean", "median", "max", "z rmse"}};
+  forEachTrajectory(runs, [&](const auto& name, const auto& of, const TrajectoryErrors& e) {
+    rows.push_back({name, of, std::to_string(e.poses), std::to_string(e.run_unpaired),
+                    std::to_string(e.truth_unpaired), text(e.ate_m.rmse, kLengthDigits),
+                    text(e.ate_m.mean, kLengthDigits), text(e.ate_m.median, kLengthDigits),
+                    text(e.ate_m.max, kLengthDigits), text(e.ate_z_m.rmse, kLengthDigits)});
+  });
+  return layOut(
+      "Absolute trajectory error [m] over all scans, after SE(3) alignment without scale\n"
+      "(no truth: poses that the truth lacks; missing: poses that only the truth has)",
+      rows, 2);
+}
+
+std::string relativeTable(const std::vector<RunEvaluation>& runs) {
+  std::vector<Row> rows{
+      {"run", "of", "scan m", "scan deg", "1 m %", "1 m deg/m", "10 m %", "10 m deg/m"}};
+  forEachTrajectory(runs, [&](const auto& name, const auto& of, const TrajectoryErrors& e) {
+    rows.push_back({name, of, text(e.per_scan.translation_rmse_m, kLengthDigits),
+                    text(e.per_scan.rotation_rmse_deg, 3), text(e.over_1m.translation_percent, 3),
+                    text(e.over_1m.rotation_deg_per_m, 3), text(e.over_10m.translation_percent, 3),
+                    text(e.over_10m.rotation_deg_per_m, 3)});
+  });
+  return layOut("Relative error: RMSE from scan to scan, mean over each metre and each ten metres",
+                rows, 2);
+}
+
+std::string mapTable(const std::vector<RunEvaluation>& runs) {
+  std::vector<Row> rows{{"run", "points", "median m", "90 % m"}};
+  for (const RunEvaluation& run : runs) {
+    if (!run.map) continue;
+    rows.push_back({run.name, std::to_string(run.map->points),
+                    text(run.map->median_m, kLengthDigits), text(run.map->p90_m, kLengthDigits)});
+  }
+  return layOut("Distance of the map's points to the nearest wall, floor or ceiling", rows, 1);
+}
+
+std::string timeTable(const std::vector<RunEvaluation>& runs) {
+  std::vector<Row> rows{{"run", "kind", "count", "mean", "p50", "p95", "max", "reduction %"}};
+  const auto addRow = [&](const std::string& run, const std::string& kind, const TimeStatistics& t,
+                          const std::string& reduction) {
+    rows.push_back({run, kind, std::to_string(t.count), text(t.mean_ms, kTimeDigits),
+                    text(t.p50_ms, kTimeDigits), text(t.p95_ms, kTimeDigits),
+                    text(t.max_ms, kTimeDigits), reduction});
+  };
+  for (const RunEvaluation& run : runs) {
+    if (!run.optimizations) continue;
+    addRow(run.name, "all", run.optimizations->all, text(reductionPercent(run, runs.front()), 2));
+    for (const auto& [kind, times] : run.optimizations->by_kind) addRow(run.name, kind, times, "");
+  }
+  return layOut("Optimization time [ms of CPU], and its mean against that of the first run", rows,
+                2);
+}
+
+}  // namespace
+
+std::string evaluationTable(const Truth& truth, const std::vector<RunEvaluation>& runs) {
+  return "Truth: " + truth.path + ", " + std::to_string(truth.trajectory.size()) + " poses\n\n" +
+         absoluteTable(runs) + relativeTable(runs) + mapTable(runs) + timeTable(runs);
+}
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mrpt_sgraphs/io/map_error.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "mrpt_sgraphs/io/statistics.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+/// An outline around less than this [m^2] is a line.
+constexpr double kMinArea_m2 = 1e-6;
+
+/// Twice the area times the unit normal (Newell).
+Eigen::Vector3d areaVector(const Outline3& outline) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Eigen::Vector3d& next = outline[(k + 1) % outline.size()];
+    sum += (outline[k] - outline[0]).cross(next - outline[0]);
+  }
+  return sum;
+}
+
+/// Calls `edge(a, b)` for every edge of every loop.
+template <typename Loops, typename Edge>
+void forEachEdge(const Loops& loops, Edge&& edge) {
+  for (const auto& loop : loops) {
+    for (std::size_t k = 0; k < loop.size(); ++k) edge(loop[k], loop[(k + 1) % loop.size()]);
+  }
+}
+
+double distanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
+                         const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a;
+  const double length2 = along.squaredNorm();
+  const double s = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - s * along).norm();
+}
+
+Outline3 outlineFrom(const nlohmann::json& json) {
+  Outline3 outline;
+  for (const nlohmann::json& corner : json) {
+    outline.emplace_back(corner.at(0).get<double>(), corner.at(1).get<double>(),
+                         corner.at(2).get<double>());
+  }
+  return outline;
+}
+
+std::vector<FlatSurface> surfacesFrom(const nlohmann::json& building) {
+  std::vector<FlatSurface> surfaces;
+  for (const nlohmann::json& wall : building.at("walls")) {
+    std::vector<Outline3> holes;
+    for (const nlohmann::json& hole : wall.value("holes", nlohmann::json::array())) {
+      holes.push_back(outlineFrom(hole));
+    }
+    surfaces.emplace_back(outlineFrom(wall.at("polygon")), holes);
+  }
+  for (const nlohmann::json& room : building.at("rooms")) {
+    Outline3 outline = outlineFrom(room.at("polygon"));
+    surfaces.emplace_back(outline, std::vector<Outline3>{});
+    if (!room.contains("height")) continue;
+    for (Eigen::Vector3d& corner : outline) corner.z() += room.at("height").get<double>();
+    surfaces.emplace_back(outline, std::vector<Outline3>{});
+  }
+  if (surfaces.empty()) throw std::runtime_error("it has no walls and no rooms");
+  return surfaces;
+}
+
+double distanceToNearest(const std::vector<FlatSurface>& surfaces, const Eigen::Vector3d& point) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const FlatSurface& surface : surfaces) {
+    if (surface.distanceToBox(point) >= nearest_m) continue;
+    nearest_m = std::min(nearest_m, surface.distance(point));
+  }
+  return nearest_m;
+}
+
+}  // namespace
+
+FlatSurface::FlatSurface(const Outline3& outline, const std::vector<Outline3>& holes) {
+  const Eigen::Vector3d area2 = areaVector(outline);
+  if (outline.size() < 3 || area2.norm() < 2.0 * kMinArea_m2) {
+    throw std::invalid_argument("an outline of " + std::to_string(outline.size()) +
+                                " corners has no area");
+  }
+  origin_ = outline[0];
+  const Eigen::Vector3d normal = area2.normalized();
+  const Eigen::Vector3d first = normal.unitOrthogonal();
+  rotation_ << first.transpose(), normal.cross(first).transpose(), normal.transpose();
+
+  const auto addLoop = [this](const Outline3& corners) {
+    Outline2 loop;
+    for (const Eigen::Vector3d& p : corners) loop.push_back((rotation_ * (p - origin_)).head<2>());
+    loops_.push_back(loop);
+  };
+  addLoop(outline);
+  for (const Outline3& hole : holes) {
+    if (hole.size() < 3) throw std::invalid_argument("a hole has fewer than three corners");
+    addLoop(hole);
+  }
+
+  box_min_ = box_max_ = origin_;
+  for (const Eigen::Vector3d& corner : outline) {
+    box_min_ = box_min_.cwiseMin(corner);
+    box_max_ = box_max_.cwiseMax(corner);
+  }
+}
+
+double FlatSurface::distanceToBox(const Eigen::Vector3d& point) const {
+  return (point - point.cwiseMax(box_min_).cwiseMin(box_max_)).norm();
+}
+
+double FlatSurface::distance(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d local = rotation_ * (point - origin_);
+  const Eigen::Vector2d p = local.head<2>();
+
+  // Even-odd over all loops at once: within the outline and within none of the holes.
+  bool inside = false;
+  double edge_m = std::numeric_limits<double>::infinity();
+  forEachEdge(loops_, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    const bool straddles = (a.y() > p.y()) != (b.y() > p.y());
+    if (straddles && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
+      inside = !inside;
+    }
+    edge_m = std::min(edge_m, distanceToSegment(p, a, b));
+  });
+  return inside ? std::abs(local.z()) : std::hypot(local.z(), edge_m);
+}
+
+std::vector<FlatSurface> readBuildingSurfaces(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read '" + path + "': " + std::strerror(errno));
+  try {
+    return surfacesFrom(nlohmann::json::parse(file));
+  } catch (const std::exception& error) {
+    throw std::runtime_error("cannot read '" + path + "': " + error.what());
+  }
+}
+
+MapError evaluateMap(const std::vector<FlatSurface>& surfaces,
+                     const std::vector<Eigen::Vector3f>& points_map, const Pose& T_truth_map) {
+  if (surfaces.empty()) throw std::invalid_argument("there is no surface to measure from");
+  const std::size_t stride = points_map.size() / kMaxMapPoints + 1;
+  std::vector<double> distances_m;
+  for (std::size_t k = 0; k < points_map.size(); k += stride) {
+    const Eigen::Vector3d point_truth = T_truth_map * points_map[k].cast<double>();
+    distances_m.push_back(distanceToNearest(surfaces, point_truth));
+  }
+  return {points_map.size(), distances_m.size(), quantile(distances_m, 0.5),
+          quantile(distances_m, 0.9)};
+}
+
+}  // namespace mrpt_sgraphs

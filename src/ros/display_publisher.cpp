@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "display_publisher.h"
+
+#include <nav_msgs/Path.h>
+#include <pcl_ros/point_cloud.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <utility>
+
+#include "mrpt_sgraphs/io/map_cloud.h"
+#include "mrpt_sgraphs/ros/conversions.h"
+#include "mrpt_sgraphs/ros/markers.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+constexpr std::uint32_t kQueueSize = 1;
+constexpr bool kLatched = true;
+constexpr double kMapResolution_m = 0.1;  ///< Coarser than what is saved: it goes over the network.
+
+}  // namespace
+
+DisplayPublisher::DisplayPublisher(ros::NodeHandle& nh, std::string map_frame, Source source)
+    : map_frame_(std::move(map_frame)),
+      source_(std::move(source)),
+      markers_pub_(nh.advertise<visualization_msgs::MarkerArray>("markers", kQueueSize, kLatched)),
+      trajectory_pub_(nh.advertise<nav_msgs::Path>("trajectory", kQueueSize, kLatched)),
+      map_pub_(nh.advertise<MapCloud>("map_points", kQueueSize, kLatched)),
+      graph_timer_(nh.createSteadyTimer(ros::WallDuration(1.0),
+                                        [this](const ros::SteadyTimerEvent&) {
+                                          publishMarkers();
+                                          publishTrajectory();
+                                        })),
+      map_timer_(nh.createSteadyTimer(ros::WallDuration(3.0),
+                                      [this](const ros::SteadyTimerEvent&) { publishMap(); })) {}
+
+void DisplayPublisher::publishMarkers() {
+  const GraphSnapshotConstPtr graph = source_.graph();
+  if (!graph || graph == graph_in_markers_ || markers_pub_.getNumSubscribers() == 0) return;
+  graph_in_markers_ = graph;
+  markers_pub_.publish(toMarkers(*graph, map_frame_));
+}
+
+void DisplayPublisher::publishTrajectory() {
+  if (trajectory_pub_.getNumSubscribers() == 0) return;
+  trajectory_pub_.publish(toMsg(source_.trajectory(), map_frame_));
+}
+
+void DisplayPublisher::publishMap() {
+  const GraphSnapshotConstPtr graph = source_.graph();
+  if (!graph || graph == graph_in_map_ || map_pub_.getNumSubscribers() == 0) return;
+  graph_in_map_ = graph;
+  const auto map = mapCloud(*graph, kMapResolution_m);
+  map->header.frame_id = map_frame_;
+  map_pub_.publish(pcl::ros_ptr(map));
+}
+
+}  // namespace mrpt_sgraphs

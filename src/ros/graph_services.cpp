@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "graph_services.h"
+
+#include <exception>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+#include "mrpt_sgraphs/io/map_cloud.h"
+#include "mrpt_sgraphs/ros/conversions.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// @throws std::runtime_error for what the user has to know.
+RunRecord recordOf(GraphSlamThread& slam) {
+  RunRecord record = slam.record().get();
+  if (record.graph->keyframes.empty()) {
+    throw std::runtime_error("nothing was written: there is no keyframe yet");
+  }
+  return record;
+}
+
+std::string filesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file()) names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// Answers with success and what `work` says, or with the reason why not.
+template <typename Response, typename Work>
+bool answer(Response& response, const Work& work) {
+  try {
+    response.message = work();
+    response.success = true;
+  } catch (const std::exception& error) {
+    response.message = error.what();
+    response.success = false;
+    ROS_WARN("%s", error.what());
+  }
+  return true;  // false would hide the message from the user
+}
+
+}  // namespace
+
+GraphServices::GraphServices(ros::NodeHandle& nh, GraphSlamThread& slam, std::string map_frame)
+    : slam_(slam),
+      map_frame_(std::move(map_frame)),
+      dump_(nh.advertiseService("dump", &GraphServices::dump, this)),
+      optimize_(nh.advertiseService("optimize", &GraphServices::optimize, this)),
+      save_map_(nh.advertiseService("save_map", &GraphServices::saveMap, this)) {}
+
+bool GraphServices::dump(Dump::Request& request, Dump::Response& response) {
+  return answer(response, [&] {
+    if (request.folder.empty()) throw std::invalid_argument("nothing was written: no folder given");
+    const RunRecord record = recordOf(slam_);
+    const fs::path folder = fs::absolute(request.folder);
+    writeRun(folder.string(), record);
+    std::ostringstream text;
+    text << record.trajectory.size() << " scans and " << record.graph->keyframes.size()
+         << " keyframes in " << folder.string() << ": " << filesIn(folder);
+    return text.str();
+  });
+}
+
+bool GraphServices::optimize(Optimize::Request&, Optimize::Response& response) {
+  return answer(response, [&] {
+    const OptimizationSummary summary = slam_.optimize().get();
+    response.report = toMsg(summary, map_frame_);
+    if (!summary.converged) throw std::runtime_error(summary.problem);
+    return std::string();
+  });
+}
+
+bool GraphServices::saveMap(SaveMap::Request& request, SaveMap::Response& response) {
+  return answer(response, [&] {
+    if (request.path.empty()) throw std::invalid_argument("nothing was written: no path given");
+    if (!(request.resolution >= 0.0)) {
+      throw std::invalid_argument("nothing was written: the resolution must not be below 0");
+    }
+    const RunRecord record = recordOf(slam_);
+    const fs::path path = fs::absolute(request.path);
+    const Cloud::ConstPtr map = mapCloud(*record.graph, request.resolution);
+    writePcd(path.string(), *map);
+    std::ostringstream text;
+    text << map->size() << " points of " << record.graph->keyframes.size() << " keyframes in "
+         << path.string();
+    return text.str();
+  });
+}
+
+}  // namespace mrpt_sgraphs

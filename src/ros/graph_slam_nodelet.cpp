@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_ros/point_cloud.h>
+#include <ros/callback_queue.h>
+#include <ros/spinner.h>
+
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <pluginlib/class_list_macros.hpp>
+#include <string>
+
+#include "cloud_trace.h"
+#include "diagnostics.h"
+#include "display_publisher.h"
+#include "graph_publisher.h"
+#include "graph_services.h"
+#include "graph_slam_thread.h"
+#include "mrpt_sgraphs/ros/conversions.h"
+#include "pipeline_nodelet.h"
+#include "stamp_matcher.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+/// Where a map goes that time ran away from: named by its last stamp, so that a bag that is played
+/// again and again fills one folder.
+std::string rescueFolder(double last_stamp_s) {
+  const char* const ros_home = std::getenv("ROS_HOME");
+  const char* const home = std::getenv("HOME");
+  const std::string base = ros_home != nullptr ? ros_home
+                           : home != nullptr   ? std::string(home) + "/.ros"
+                                               : ".";
+  return base + "/mrpt_sgraphs/until_" + std::to_string(last_stamp_s);
+}
+
+}  // namespace
+
+/// The back end among the nodelets: GraphSlam on its own thread, what goes in and what comes out.
+///
+/// Subscribes  keyframe         (mrpt_sgraphs/KeyframeStamped)  matched with
+///             keyframe_points  (Cloud, zero-copy)              by their stamp
+///             scan_odometry    (mrpt_sgraphs/ScanOdometry)     for the trajectory of every scan
+/// Publishes   see GraphPublisher and DisplayPublisher
+/// Serves      see GraphServices
+/// Parameters  loop_closure/*, solver/*, and for the record of a run all of SlamConfig
+///             frames/map, frames/odom                          FramesConfig
+class GraphSlamNodelet final : public PipelineNodelet {
+ private:
+  using CloudConstPtr = boost::shared_ptr<const Cloud>;
+  using Matcher = StampMatcher<KeyframeStampedConstPtr, CloudConstPtr>;
+
+  void start() override {
+    const SlamConfig config = loadSlamConfig(getNodeHandle());
+    const auto frames = section<FramesConfig>("frames");
+    ros::NodeHandle& nh = getNodeHandle();
+    publisher_ = std::make_unique<GraphPublisher>(nh, frames);
+    slam_ = std::make_unique<GraphSlamThread>(
+        config, GraphSlamThread::Listener{
+                    [this](const GraphSnapshotConstPtr& graph) { publisher_->publish(graph); },
+                    [this](const OptimizationSummary& summary) { onOptimization(summary); },
+                    [this](const std::string& problem) { NODELET_WARN("%s", problem.c_str()); }});
+
+    ros::NodeHandle patient_nh(nh);
+    patient_nh.setCallbackQueue(&patient_queue_);
+    services_ = std::make_unique<GraphServices>(patient_nh, *slam_, frameName(frames.map));
+    display_ = std::make_unique<DisplayPublisher>(
+        patient_nh, frameName(frames.map),
+        DisplayPublisher::Source{[this] { return publisher_->graph(); },
+                                 [this] { return slam_->trajectory().get(); }});
+    patient_spinner_.start();
+
+    diagnostics_ = std::make_unique<Diagnostics>(
+        nh, getName(), [this](Diagnostics::Status& status) { describe(status); });
+    scan_sub_ = nh.subscribe("scan_odometry", kQueueSize, &GraphSlamNodelet::onScan, this);
+    keyframe_sub_ = nh.subscribe("keyframe", kQueueSize, &GraphSlamNodelet::onKeyframe, this);
+    cloud_sub_ = nh.subscribe("keyframe_points", kQueueSize, &GraphSlamNodelet::onCloud, this);
+  }
+
+  void onScan(const ScanOdometryConstPtr& msg) {
+    if (!isOfThisSession(msg->session)) return;
+    const auto motion = toScanMotion(*msg);
+    if (!motion) return;
+    ScanReport report;
+    report.stamp_s = motion->stamp_s;
+    report.deskew_ms = msg->deskew_ms;
+    report.register_ms = msg->register_ms;
+    report.map_ms = msg->map_ms;
+    report.registered = msg->registered != 0;
+    slam_->addScan(*motion, report);
+    last_stamp_s_ = motion->stamp_s;
+  }
+
+  void onKeyframe(const KeyframeStampedConstPtr& msg) {
+    if (!isOfThisSession(msg->session)) return;
+    add(matcher_.addFirst(pcl_conversions::toPCL(msg->header.stamp), msg));
+  }
+
+  void onCloud(const CloudConstPtr& cloud) {
+    traceCloud("receive", "keyframe_points", cloud.get());
+    add(matcher_.addSecond(cloud->header.stamp, cloud));
+  }
+
+  void add(const std::optional<Matcher::Pair>& pair) {
+    if (!pair) return;
+    auto keyframe = toKeyframe(*pair->first);
+    if (!keyframe) return;
+    keyframe->cloud = pcl::pcl_ptr(pair->second);
+    slam_->addKeyframe(*keyframe);
+  }
+
+  /// A session that is newer begins, one that is older ended.
+  bool isOfThisSession(std::uint32_t session) {
+    if (session > session_) {
+      session_ = session;
+      matcher_.clear();
+      slam_->startAgain(rescueFolder(last_stamp_s_));
+    }
+    return session == session_;
+  }
+
+  void onOptimization(const OptimizationSummary& summary) {
+    publisher_->publish(summary);
+    const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
+    last_optimization_ = summary;
+  }
+
+  void describe(Diagnostics::Status& status) {
+    constexpr std::size_t kMaxWaiting = 100;  // ten seconds of scans
+    const std::size_t waiting = slam_->waiting();
+    const GraphSnapshotConstPtr graph = publisher_->graph();
+    if (waiting > kMaxWaiting) {
+      status.summary(Diagnostics::Status::WARN, "the back end cannot keep up");
+    } else {
+      status.summary(Diagnostics::Status::OK, graph ? "the graph grows" : "no keyframe yet");
+    }
+    status.add("jobs waiting", waiting);
+    status.add("keyframes", graph ? graph->keyframes.size() : 0);
+    status.add("factors", graph ? graph->edges.size() : 0);
+    const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
+    if (!last_optimization_) return;
+    status.add("last optimization", last_optimization_->kind);
+    status.add("last optimization, stamp", last_optimization_->stamp_s);
+    status.add("last optimization, ms", last_optimization_->total_ms);
+    status.add("last optimization, iterations", last_optimization_->iterations);
+    status.add("last optimization, converged", last_optimization_->converged);
+  }
+
+  Matcher matcher_;
+  std::uint32_t session_ = 0;
+  double last_stamp_s_ = 0.0;
+  std::mutex last_optimization_mutex_;  ///< Guards the next one.
+  std::optional<OptimizationSummary> last_optimization_;
+  std::unique_ptr<GraphPublisher> publisher_;
+  std::unique_ptr<GraphSlamThread> slam_;
+  ros::CallbackQueue patient_queue_;  ///< For what may wait for the back end.
+  std::unique_ptr<GraphServices> services_;
+  std::unique_ptr<DisplayPublisher> display_;
+  ros::AsyncSpinner patient_spinner_{1, &patient_queue_};
+  std::unique_ptr<Diagnostics> diagnostics_;
+  ros::Subscriber scan_sub_;
+  ros::Subscriber keyframe_sub_;
+  ros::Subscriber cloud_sub_;  ///< Last members: no callback outlives the others.
+};
+
+}  // namespace mrpt_sgraphs
+
+PLUGINLIB_EXPORT_CLASS(mrpt_sgraphs::GraphSlamNodelet, nodelet::Nodelet)

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "graph_slam_thread.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "mrpt_sgraphs/slam/config_file.h"
+#include "mrpt_sgraphs/slam/graph_slam.h"
+#include "mrpt_sgraphs/slam/scan_trajectory.h"
+
+namespace mrpt_sgraphs {
+
+/// All that was made of one run of the sensor: until its time starts again.
+struct GraphSlamThread::Session {
+  explicit Session(const SlamConfig& config) : slam(config.loop_closure, config.solver) {}
+
+  GraphSlam slam;
+  ScanTrajectory trajectory;
+  std::vector<OptimizationSummary> optimizations;
+  std::vector<ScanReport> scans;
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+};
+
+GraphSlamThread::GraphSlamThread(const SlamConfig& config, Listener listener)
+    : config_(config),
+      listener_(std::move(listener)),
+      session_(std::make_unique<Session>(config)),
+      thread_([this] { run(); }) {}
+
+GraphSlamThread::~GraphSlamThread() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  something_to_do_.notify_one();
+  thread_.join();
+}
+
+void GraphSlamThread::addScan(const ScanMotion& scan, const ScanReport& report) {
+  post([this, scan, report] {
+    session_->trajectory.add(scan.stamp_s, scan.T_odom_base);
+    session_->scans.push_back(report);
+  });
+}
+
+void GraphSlamThread::addKeyframe(const Keyframe& keyframe) {
+  post([this, keyframe] {
+    const KeyframeOutcome outcome = session_->slam.addKeyframe(keyframe);
+    constexpr double kSameStamp_s = 1e-6;
+    const auto scan = std::find_if(
+        session_->scans.rbegin(), session_->scans.rend(), [&keyframe](const ScanReport& report) {
+          return std::abs(report.stamp_s - keyframe.stamp_s) < kSameStamp_s;
+        });
+    if (scan != session_->scans.rend()) scan->keyframe = true;
+    listener_.on_graph(session_->slam.snapshot());
+    if (!outcome.optimization) return;
+    session_->optimizations.push_back(*outcome.optimization);
+    listener_.on_optimization(*outcome.optimization);
+  });
+}
+
+void GraphSlamThread::startAgain(const std::string& folder) {
+  post([this, folder] {
+    std::string fate = "nothing had been mapped";
+    try {
+      if (!session_->slam.snapshot()->keyframes.empty()) {
+        writeRun(folder, recordNow());
+        fate = "what had been mapped lies in " + folder;
+      }
+    } catch (const std::exception& error) {
+      fate = std::string("what had been mapped is lost: ") + error.what();
+    }
+    session_ = std::make_unique<Session>(config_);
+    listener_.on_problem("A new graph begins; " + fate + ".");
+    listener_.on_graph(session_->slam.snapshot());
+  });
+}
+
+std::future<OptimizationSummary> GraphSlamThread::optimize() {
+  return ask<OptimizationSummary>([this] {
+    const OptimizationSummary summary = session_->slam.optimize();
+    session_->optimizations.push_back(summary);
+    listener_.on_graph(session_->slam.snapshot());
+    listener_.on_optimization(summary);
+    return summary;
+  });
+}
+
+std::future<RunRecord> GraphSlamThread::record() {
+  return ask<RunRecord>([this] { return recordNow(); });
+}
+
+std::future<Trajectory> GraphSlamThread::trajectory() {
+  return ask<Trajectory>(
+      [this] { return session_->trajectory.corrected(*session_->slam.snapshot()); });
+}
+
+std::size_t GraphSlamThread::waiting() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return jobs_.size();
+}
+
+RunRecord GraphSlamThread::recordNow() const {
+  RunRecord record;
+  record.graph = session_->slam.snapshot();
+  record.trajectory = session_->trajectory.corrected(*record.graph);
+  record.odometry = session_->trajectory.odometry();
+  record.optimizations = session_->optimizations;
+  record.scans = session_->scans;
+  record.parameters = parameterList(config_);
+  if (!record.odometry.empty()) {
+    record.data_s = record.odometry.back().stamp_s - record.odometry.front().stamp_s;
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - session_->started;
+  record.wall_s = wall.count();
+  return record;
+}
+
+template <typename Result>
+std::future<Result> GraphSlamThread::ask(std::function<Result()> job) {
+  const auto task = std::make_shared<std::packaged_task<Result()>>(std::move(job));
+  post([task] { (*task)(); });
+  return task->get_future();
+}
+
+void GraphSlamThread::post(std::function<void()> job) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    jobs_.push_back(std::move(job));
+  }
+  something_to_do_.notify_one();
+}
+
+void GraphSlamThread::run() {
+  for (;;) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    something_to_do_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
+    if (stopping_) return;
+    const std::function<void()> job = std::move(jobs_.front());
+    jobs_.pop_front();
+    lock.unlock();
+    try {
+      job();
+    } catch (const std::exception& error) {
+      listener_.on_problem(error.what());
+    }
+  }
+}
+
+}  // namespace mrpt_sgraphs

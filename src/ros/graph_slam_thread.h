@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "mrpt_sgraphs/frontend/keyframe_selector.h"
+#include "mrpt_sgraphs/io/run_writer.h"
+#include "mrpt_sgraphs/slam/slam_config.h"
+
+namespace mrpt_sgraphs {
+
+/// The back end on a thread of its own: values go in and return at once, snapshots come out. What
+/// is asked of it is done in the order in which it came.
+class GraphSlamThread {
+ public:
+  /// Both are called on the thread.
+  struct Listener {
+    std::function<void(const GraphSnapshotConstPtr&)> on_graph;  ///< After every change.
+    std::function<void(const OptimizationSummary&)> on_optimization;
+    std::function<void(const std::string&)> on_problem;  ///< One sentence.
+  };
+
+  GraphSlamThread(const SlamConfig& config, Listener listener);
+  ~GraphSlamThread();  ///< What still waits is not done any more.
+
+  void addScan(const ScanMotion& scan, const ScanReport& report);
+  void addKeyframe(const Keyframe& keyframe);
+
+  /// Writes what there is into `folder`, so that it is not lost, and begins with an empty graph.
+  void startAgain(const std::string& folder);
+
+  std::future<OptimizationSummary> optimize();
+  std::future<RunRecord> record();
+
+  /// T_map_base of every scan.
+  std::future<Trajectory> trajectory();
+
+  /// Jobs that wait.
+  std::size_t waiting() const;
+
+ private:
+  struct Session;
+
+  template <typename Result>
+  std::future<Result> ask(std::function<Result()> job);
+  void post(std::function<void()> job);
+  void run();
+  RunRecord recordNow() const;
+
+  const SlamConfig config_;
+  const Listener listener_;
+  std::unique_ptr<Session> session_;  ///< Belongs to the thread.
+
+  mutable std::mutex mutex_;  ///< Guards the next two.
+  std::deque<std::function<void()>> jobs_;
+  bool stopping_ = false;
+  std::condition_variable something_to_do_;
+  std::thread thread_;  ///< Last member: it uses the others.
+};
+
+}  // namespace mrpt_sgraphs

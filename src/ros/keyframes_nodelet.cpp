@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_ros/point_cloud.h>
+
+#include <optional>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "cloud_trace.h"
+#include "mrpt_sgraphs/frontend/keyframe_selector.h"
+#include "mrpt_sgraphs/ros/conversions.h"
+#include "pipeline_nodelet.h"
+#include "stamp_matcher.h"
+
+namespace mrpt_sgraphs {
+
+/// Picks the scans that the graph keeps; which, KeyframeSelector knows.
+///
+/// Subscribes  scan_odometry    (mrpt_sgraphs/ScanOdometry)     matched with
+///             points_deskewed  (Cloud, zero-copy)              by their stamp
+/// Publishes   keyframe         (mrpt_sgraphs/KeyframeStamped)  the scan's stamp
+///             keyframe_points  (Cloud, zero-copy)              the same stamp, thinned out
+/// Parameters  keyframes/*      KeyframeConfig
+class KeyframesNodelet final : public PipelineNodelet {
+ private:
+  using CloudConstPtr = boost::shared_ptr<const Cloud>;
+  using Matcher = StampMatcher<ScanOdometryConstPtr, CloudConstPtr>;
+
+  void start() override {
+    selector_.emplace(section<KeyframeConfig>("keyframes"));
+    ros::NodeHandle& nh = getNodeHandle();
+    keyframe_pub_ = nh.advertise<KeyframeStamped>("keyframe", kQueueSize);
+    cloud_pub_ = nh.advertise<Cloud>("keyframe_points", kQueueSize);
+    scan_sub_ = nh.subscribe("scan_odometry", kQueueSize, &KeyframesNodelet::onScan, this);
+    cloud_sub_ = nh.subscribe("points_deskewed", kQueueSize, &KeyframesNodelet::onCloud, this);
+  }
+
+  void onScan(const ScanOdometryConstPtr& msg) {
+    if (msg->session != session_) {
+      session_ = msg->session;
+      matcher_.clear();
+      selector_->reset();
+    }
+    process(matcher_.addFirst(pcl_conversions::toPCL(msg->header.stamp), msg));
+  }
+
+  void onCloud(const CloudConstPtr& cloud) {
+    traceCloud("receive", "points_deskewed", cloud.get());
+    process(matcher_.addSecond(cloud->header.stamp, cloud));
+  }
+
+  void process(const std::optional<Matcher::Pair>& scan) {
+    if (!scan) return;
+    const ScanOdometry& odometry = *scan->first;
+    const auto motion = toScanMotion(odometry);
+    if (!motion) return;
+    const auto keyframe = selector_->process(*motion, *scan->second);
+    if (!keyframe) return;
+
+    KeyframeStamped msg = toMsg(*keyframe, odometry.header, odometry.child_frame_id);
+    msg.session = session_;
+    keyframe_pub_.publish(msg);
+    traceCloud("publish", "keyframe_points", keyframe->cloud.get());
+    cloud_pub_.publish(pcl::ros_ptr(keyframe->cloud));
+  }
+
+  std::optional<KeyframeSelector> selector_;
+  Matcher matcher_;
+  std::uint32_t session_ = 0;
+  ros::Publisher keyframe_pub_;
+  ros::Publisher cloud_pub_;
+  ros::Subscriber scan_sub_;
+  ros::Subscriber cloud_sub_;  ///< Last members: no callback outlives the others.
+};
+
+}  // namespace mrpt_sgraphs
+
+PLUGINLIB_EXPORT_CLASS(mrpt_sgraphs::KeyframesNodelet, nodelet::Nodelet)
