@@ -6,10 +6,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "mrpt_sgraphs/frontend/levelling.h"
 #include "mrpt_sgraphs/frontend/thinning.h"
+#include "mrpt_sgraphs/geometry/cpu_time.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -48,12 +48,6 @@ constexpr int kFirstScans = 10;
 /// cells with one view.
 constexpr double kMapEvery_m = 0.05;
 constexpr double kMapEvery_rad = 0.02;
-
-double cpuMilliseconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
 
 /// diag(sigma_m^2, sigma_rad^2)^-1
 Matrix6 informationOf(double sigma_m, double sigma_rad) {
@@ -274,19 +268,12 @@ std::optional<OdometryResult> Odometry::process(const Cloud& scan) {
   result.stamp_s = stampOf(scan);
   if (scan.empty() || (last_ && result.stamp_s <= last_->stamp_s)) return std::nullopt;
 
-  double start_ms = cpuMilliseconds();
-  const auto lap = [&start_ms] {
-    const double now_ms = cpuMilliseconds();
-    const double lap_ms = now_ms - start_ms;
-    start_ms = now_ms;
-    return lap_ms;
-  };
-
+  CpuStopwatch watch;
   const auto [from_s, to_s] = sweepOf(scan);
   const bool has_times = to_s > from_s;
   if (!last_) {
     start(scan, &result);
-    result.register_ms = lap();
+    result.register_ms = watch.lap();
   } else {
     const double dt_s = result.stamp_s - last_->stamp_s;
     const SweepTurning turning(imu_, result.stamp_s, from_s, to_s);
@@ -296,10 +283,10 @@ std::optional<OdometryResult> Odometry::process(const Cloud& scan) {
     }
     const std::vector<ScanPoint> points =
         pointsToRegister(scan, turning, has_times, config_.registration_points);
-    result.deskew_ms = lap();
+    result.deskew_ms = watch.lap();
     const Eigen::Vector3d viewpoint = scan.sensor_origin_.head<3>().cast<double>();
     const RegistrationResult fit = placeScan(points, prior, viewpoint);
-    result.register_ms = lap();
+    result.register_ms = watch.lap();
 
     result.registered = fit.matched > 0 && fit.inlier_ratio >= kMinInlierRatio;
     const MovingPose& pose = result.registered ? fit.estimate : prior.mean;
@@ -327,11 +314,11 @@ std::optional<OdometryResult> Odometry::process(const Cloud& scan) {
       }
       result.velocity_base.tail<3>() = logSO3(T_last_now.linear()) / dt_s;
     }
-    result.deskew_ms += lap();
+    result.deskew_ms += watch.lap();
   }
 
   if (result.registered) placeInMap(*result.deskewed, result.T_odom_base);
-  result.map_ms = lap();
+  result.map_ms = watch.lap();
 
   last_ = result;
   last_->deskewed.reset();

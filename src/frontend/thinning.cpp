@@ -4,34 +4,59 @@
 #include "mrpt_sgraphs/frontend/thinning.h"
 
 #include <cmath>
-#include <cstdint>
 
 namespace mrpt_sgraphs {
+namespace {
+
+constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
+constexpr std::size_t kFewest = 1024;
+
+std::size_t slotOf(std::uint64_t key, std::size_t slots) {
+  return ((key * 0x9E3779B97F4A7C15ULL) >> 20) & (slots - 1);
+}
+
+}  // namespace
+
+VoxelSet::VoxelSet(double edge_m, std::size_t expected)
+    : inverse_edge_(static_cast<float>(1.0 / edge_m)) {
+  std::size_t slots = kFewest;
+  while (slots < 2 * expected) slots *= 2;
+  slots_.assign(slots, kEmpty);
+}
+
+bool VoxelSet::insert(const Eigen::Vector3f& p) {
+  const auto part = [this](float v) {
+    constexpr int kOffset = 1 << 20;  // 21 bits a coordinate
+    constexpr std::uint64_t kMask = (1 << 21) - 1;
+    return static_cast<std::uint64_t>(static_cast<int>(std::floor(v * inverse_edge_)) + kOffset) &
+           kMask;
+  };
+  if (!insertKey((part(p.x()) << 42) | (part(p.y()) << 21) | part(p.z()))) return false;
+  if (2 * ++count_ > slots_.size()) grow();
+  return true;
+}
+
+bool VoxelSet::insertKey(std::uint64_t key) {
+  std::size_t slot = slotOf(key, slots_.size());
+  while (slots_[slot] != kEmpty && slots_[slot] != key) slot = (slot + 1) & (slots_.size() - 1);
+  if (slots_[slot] == key) return false;
+  slots_[slot] = key;
+  return true;
+}
+
+void VoxelSet::grow() {
+  std::vector<std::uint64_t> old(2 * slots_.size(), kEmpty);
+  old.swap(slots_);
+  for (const std::uint64_t key : old) {
+    if (key != kEmpty) insertKey(key);
+  }
+}
 
 std::vector<int> firstInVoxels(const Cloud& cloud, double voxel_size_m) {
-  // A set of voxels by open addressing: PCL's VoxelGrid averages (and so bends edges) and costs five
-  // times as much.
-  std::size_t capacity = 1024;
-  while (capacity < 2 * cloud.size()) capacity *= 2;
-  const std::size_t mask = capacity - 1;
-  constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
-  std::vector<std::uint64_t> voxels(capacity, kEmpty);
-
+  VoxelSet voxels(voxel_size_m, cloud.size());
   std::vector<int> kept;
-  const float inverse = static_cast<float>(1.0 / voxel_size_m);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Point& p = cloud[i];
-    const auto part = [inverse](float v) {
-      constexpr int kOffset = 1 << 20;  // 21 bits a coordinate
-      return static_cast<std::uint64_t>(static_cast<int>(std::floor(v * inverse)) + kOffset) &
-             0x1FFFFF;
-    };
-    const std::uint64_t key = (part(p.x) << 42) | (part(p.y) << 21) | part(p.z);
-    std::size_t slot = (key * 0x9E3779B97F4A7C15ULL) >> 20 & mask;
-    while (voxels[slot] != kEmpty && voxels[slot] != key) slot = (slot + 1) & mask;
-    if (voxels[slot] == key) continue;
-    voxels[slot] = key;
-    kept.push_back(static_cast<int>(i));
+    if (voxels.insert(cloud[i].getVector3fMap())) kept.push_back(static_cast<int>(i));
   }
   return kept;
 }

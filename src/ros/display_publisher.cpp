@@ -8,7 +8,7 @@
 
 #include <utility>
 
-#include "mrpt_sgraphs/io/map_cloud.h"
+#include "mrpt_sgraphs/mapping/map_cloud.h"
 #include "mrpt_sgraphs/ros/conversions.h"
 #include "mrpt_sgraphs/ros/markers.h"
 
@@ -26,7 +26,7 @@ DisplayPublisher::DisplayPublisher(ros::NodeHandle& nh, std::string map_frame, S
       source_(std::move(source)),
       markers_pub_(nh.advertise<visualization_msgs::MarkerArray>("markers", kQueueSize, kLatched)),
       trajectory_pub_(nh.advertise<nav_msgs::Path>("trajectory", kQueueSize, kLatched)),
-      map_pub_(nh.advertise<MapCloud>("map_points", kQueueSize, kLatched)),
+      map_pub_(nh.advertise<Cloud>("map_points", kQueueSize, kLatched)),
       graph_timer_(nh.createSteadyTimer(ros::WallDuration(1.0),
                                         [this](const ros::SteadyTimerEvent&) {
                                           publishMarkers();

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_services.h"
 
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
 
-#include "mrpt_sgraphs/io/map_cloud.h"
+#include "mrpt_sgraphs/io/atomic_file.h"
+#include "mrpt_sgraphs/io/exports.h"
+#include "mrpt_sgraphs/mapping/map_cloud.h"
 #include "mrpt_sgraphs/ros/conversions.h"
 
 namespace mrpt_sgraphs {
@@ -88,8 +91,11 @@ bool GraphServices::saveMap(SaveMap::Request& request, SaveMap::Response& respon
     }
     const RunRecord record = recordOf(slam_);
     const fs::path path = fs::absolute(request.path);
-    const Cloud::ConstPtr map = mapCloud(*record.graph, request.resolution);
-    writePcd(path.string(), *map);
+    const Cloud::ConstPtr map = mapCloud(
+        *record.graph, request.resolution > 0.0 ? request.resolution : record.map_resolution_m);
+    AtomicFile file(path.string());
+    writePcd(*map, file.stream());
+    file.commit();
     std::ostringstream text;
     text << map->size() << " points of " << record.graph->keyframes.size() << " keyframes in "
          << path.string();

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <utility>
 #include <vector>
 
+#include "mrpt_sgraphs/geometry/cpu_time.h"
 #include "mrpt_sgraphs/slam/config_file.h"
 #include "mrpt_sgraphs/slam/graph_slam.h"
 #include "mrpt_sgraphs/slam/scan_trajectory.h"
@@ -49,13 +51,18 @@ void GraphSlamThread::addScan(const ScanMotion& scan, const ScanReport& report) 
 
 void GraphSlamThread::addKeyframe(const Keyframe& keyframe) {
   post([this, keyframe] {
+    CpuStopwatch stopwatch;
     const KeyframeOutcome outcome = session_->slam.addKeyframe(keyframe);
+    const double keyframe_ms = stopwatch.lap();
     constexpr double kSameStamp_s = 1e-6;
     const auto scan = std::find_if(
         session_->scans.rbegin(), session_->scans.rend(), [&keyframe](const ScanReport& report) {
           return std::abs(report.stamp_s - keyframe.stamp_s) < kSameStamp_s;
         });
-    if (scan != session_->scans.rend()) scan->keyframe = true;
+    if (scan != session_->scans.rend()) {
+      scan->keyframe = true;
+      scan->keyframe_ms = keyframe_ms;
+    }
     listener_.on_graph(session_->slam.snapshot());
     if (!outcome.optimization) return;
     session_->optimizations.push_back(*outcome.optimization);

@@ -115,7 +115,7 @@ class OdometryNodelet final : public PipelineNodelet {
     if (result.registered) ++registered_;
     if (!result.problem.empty()) {
       problem_ = result.problem;
-      if (problem_warning_.passes()) {
+      if (problem_warning_.passes(problem_)) {
         NODELET_WARN("The pose at %.3f is not to be trusted: %s.", result.stamp_s,
                      problem_.c_str());
       }

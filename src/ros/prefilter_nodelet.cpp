@@ -53,7 +53,7 @@ class PrefilterNodelet final : public PipelineNodelet {
 
     const PrefilterResult result = prefilter_->filter(viewOf(*msg), *T_base_sensor, base);
     if (!result.cloud) return refuse(*msg, result.problem);
-    if (!result.remark.empty() && remark_warning_.passes()) {
+    if (!result.remark.empty() && remark_warning_.passes(result.remark)) {
       NODELET_WARN("%s: %s", topic().c_str(), result.remark.c_str());
     }
     ++passed_;
@@ -63,7 +63,7 @@ class PrefilterNodelet final : public PipelineNodelet {
   }
 
   void refuse(const sensor_msgs::PointCloud2& msg, const std::string& problem) {
-    if (!refuse_warning_.passes()) return;
+    if (!refuse_warning_.passes(problem)) return;
     NODELET_WARN("%s: the cloud of %.3f in '%s' (%u x %u points) is not used: %s", topic().c_str(),
                  msg.header.stamp.toSec(), msg.header.frame_id.c_str(), msg.width, msg.height,
                  problem.c_str());

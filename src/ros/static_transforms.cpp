@@ -17,7 +17,7 @@ std::optional<Pose> StaticTransforms::find(const std::string& base, const std::s
     known_.emplace(std::make_pair(base, sensor), T_base_sensor);
     return T_base_sensor;
   } catch (const tf2::TransformException& error) {
-    if (warning_.passes()) {
+    if (warning_.passes(base + sensor)) {
       ROS_WARN("Waiting for the transform from '%s' to '%s': %s", sensor.c_str(), base.c_str(),
                error.what());
     }

@@ -37,6 +37,10 @@ struct RunRecord {
   double map_resolution_m = 0.05;
 };
 
+/// Makes a folder where it is missing and tries whether files can be made in it.
+/// @throws std::runtime_error naming the folder and the reason if not.
+void requireWritableFolder(const std::string& folder);
+
 /// Writes a run into a folder, which is made where it is missing: trajectory.tum, odometry.tum,
 /// keyframes.tum, graph.json, graph.g2o, map.pcd, optimizations.csv, scans.csv, report.json. Each
 /// file is written under a temporary name and renamed, so that a file is the old one or the new one.

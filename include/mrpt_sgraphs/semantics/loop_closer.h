@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <deque>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -50,6 +48,37 @@ struct LoopCloserConfig {
   }
 };
 
-class LoopCloser;
+/// Finds where the newest keyframe has been before.
+///
+/// Candidates are old keyframes within a radius that grows with the uncertainty of the way between
+/// the two, the nearest first, and those that look most alike from above. Each is verified: the
+/// newest cloud has to fit the merged clouds around the candidate (share of points, their distances,
+/// no direction left open), and the closed loop has to be believable under the uncertainty of the
+/// way round it.
+class LoopCloser {
+ public:
+  explicit LoopCloser(const LoopCloserConfig& config) : config_(config) {}
+
+  /// @param keyframes  All of them in id order, the newest last; ids are consecutive.
+  /// @param edges      All between them.
+  /// @return The loops that passed, to be added to the graph.
+  std::vector<RelativePoseEdge> find(const std::vector<KeyframeNode>& keyframes,
+                                     const std::vector<RelativePoseEdge>& edges);
+
+ private:
+  struct Candidate;
+
+  void describe(const std::vector<KeyframeNode>& keyframes);
+  std::vector<Candidate> candidates(const std::vector<KeyframeNode>& keyframes,
+                                    const std::vector<Matrix6>& uncertainty) const;
+  std::optional<RelativePoseEdge> verify(const Candidate& candidate,
+                                         const std::vector<KeyframeNode>& keyframes,
+                                         const Matrix6& uncertainty) const;
+
+  LoopCloserConfig config_;
+  std::vector<ScanContext> contexts_;
+  std::vector<double> path_m_;  ///< Way from the first keyframe to each.
+  double searched_at_m_ = -1e9;
+};
 
 }  // namespace mrpt_sgraphs

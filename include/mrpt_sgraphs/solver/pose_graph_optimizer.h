@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
+#include <vector>
+
+#include "mrpt_sgraphs/graph/snapshot.h"
 #include "mrpt_sgraphs/solver/optimization_summary.h"
 
 namespace mrpt_sgraphs {
@@ -19,5 +23,14 @@ struct PoseGraphOptimizerConfig {
     field("loop_kernel_chi2", self.loop_kernel_chi2, 0.1, 1e6);
   }
 };
+
+/// Levenberg-Marquardt over relative poses, sparse Cholesky inside. Loop closures carry a Cauchy
+/// kernel: one that contradicts all others loses its weight instead of bending the map.
+///
+/// @param poses  T_map_base, initial in and optimized out; the pose with the lowest id stays. Left as
+///               it is if the problem is not solvable, which the summary then says.
+OptimizationSummary optimizePoseGraph(const std::vector<RelativePoseEdge>& edges,
+                                      const PoseGraphOptimizerConfig& config,
+                                      std::map<KeyframeId, Pose>* poses);
 
 }  // namespace mrpt_sgraphs

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include "mrpt_sgraphs/geometry/pose.h"
+
+namespace mrpt_sgraphs {
+
+/// Inverse of the right Jacobian of SO(3): log(exp(theta) exp(delta)) = theta + J delta.
+inline Eigen::Matrix3d inverseRightJacobian(const Eigen::Vector3d& theta) {
+  const double angle = theta.norm();
+  const Eigen::Matrix3d k = skew(theta);
+  constexpr double kTiny_rad = 1e-4;
+  const double b = angle < kTiny_rad
+                       ? 1.0 / 12.0
+                       : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
+  return Eigen::Matrix3d::Identity() + 0.5 * k + b * k * k;
+}
+
+/// Two keyframes and the relative pose measured between them (an edge within the keyframes layer):
+///
+///     e = log( Z^-1 T_map_from^-1 T_map_to )     3 rows, m; 3 rows, rad      e in R^6
+///
+/// with the pseudo-logarithm of `mrpt::poses::Lie::SE<3>`: the translation as it stands, the rotation
+/// vector below it. Jacobians with respect to right perturbations.
+///
+/// Frames: both poses in `map`; the measurement Z = T_from_to.
+inline Tangent relativePoseResidual(const Pose& measured_from_to, const Pose& T_map_from,
+                                    const Pose& T_map_to, Matrix6* J_from, Matrix6* J_to) {
+  const Pose T_from_to = T_map_from.inverse() * T_map_to;
+  const Pose error = measured_from_to.inverse() * T_from_to;
+  const Tangent e = logPose(error);
+  if (J_from == nullptr && J_to == nullptr) return e;
+
+  const Eigen::Matrix3d J_log = inverseRightJacobian(e.tail<3>());
+  const Eigen::Matrix3d R_to_from = T_from_to.linear().transpose();
+  const Eigen::Matrix3d R_z_from = measured_from_to.linear().transpose();
+  if (J_from != nullptr) {
+    *J_from << -R_z_from, R_z_from * skew(T_from_to.translation()),  //
+        Eigen::Matrix3d::Zero(), -J_log * R_to_from;
+  }
+  if (J_to != nullptr) {
+    *J_to << error.linear(), Eigen::Matrix3d::Zero(),  //
+        Eigen::Matrix3d::Zero(), J_log;
+  }
+  return e;
+}
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <ostream>
+
+#include "mrpt_sgraphs/graph/snapshot.h"
+
+namespace mrpt_sgraphs {
+
+/// graph.json: versioned and lossless; docs/graph.schema.json describes it.
+void writeGraphJson(const GraphSnapshot& graph, std::ostream& out);
+
+/// The pose layer in the g2o text format (VERTEX_SE3:QUAT, EDGE_SE3:QUAT, FIX), 17 digits. g2o's
+/// residual is (t, vector part of the quaternion), which is half the rotation vector: the rotational
+/// rows and columns of the information are doubled to mean the same.
+void writeG2o(const GraphSnapshot& graph, std::ostream& out);
+
+/// A binary PCD file with the fields x y z intensity.
+void writePcd(const Cloud& cloud, std::ostream& out);
+
+}  // namespace mrpt_sgraphs

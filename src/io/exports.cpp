@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mrpt_sgraphs/io/exports.h"
+
+#include <Eigen/Geometry>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace mrpt_sgraphs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr int kGraphVersion = 1;
+constexpr int kAllDigits = 17;  ///< A double comes back as it was.
+
+/// [x, y, z, qx, qy, qz, qw]
+Json toJson(const Pose& T) {
+  const Eigen::Quaterniond q(T.linear());
+  const Eigen::Vector3d t = T.translation();
+  return Json::array({t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()});
+}
+
+/// Row-major upper triangle, tangent order.
+Json toJson(const Matrix6& information) {
+  Json triangle = Json::array();
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) triangle.push_back(information(row, column));
+  }
+  return triangle;
+}
+
+Json toJson(const KeyframeNode& keyframe) {
+  return {{"id", keyframe.id.value},
+          {"stamp", keyframe.stamp_s},
+          {"pose", toJson(keyframe.T_map_base)},
+          {"odometry", toJson(keyframe.T_odom_base)},
+          {"floor", nullptr},
+          {"room", nullptr},
+          {"marginalized", false},
+          {"representative", keyframe.id.value}};
+}
+
+Json toJson(const RelativePoseEdge& edge) {
+  const bool loop = edge.kind == RelativePoseEdge::Kind::kLoopClosure;
+  return {{"type", loop ? "loop_closure" : "odometry"},
+          {"nodes", {{{"keyframe", edge.from.value}}, {{"keyframe", edge.to.value}}}},
+          {"measurement", toJson(edge.T_from_to)},
+          {"information", toJson(edge.information)}};
+}
+
+void writePose(const Pose& T, std::ostream& out) {
+  const Eigen::Quaterniond q(T.linear());
+  out << T.translation().transpose() << ' ' << q.coeffs().transpose();
+}
+
+}  // namespace
+
+void writeGraphJson(const GraphSnapshot& graph, std::ostream& out) {
+  Json keyframes = Json::array();
+  for (const KeyframeNode& keyframe : graph.keyframes) keyframes.push_back(toJson(keyframe));
+  Json factors = Json::array();
+  for (const RelativePoseEdge& edge : graph.edges) factors.push_back(toJson(edge));
+  const Json document = {{"format", "mrpt_sgraphs/graph"},
+                         {"version", kGraphVersion},
+                         {"map_odom", toJson(graph.T_map_odom)},
+                         {"keyframes", keyframes},
+                         {"walls", Json::array()},
+                         {"rooms", Json::array()},
+                         {"floors", Json::array()},
+                         {"factors", factors}};
+  out << document.dump(1) << '\n';
+}
+
+void writeG2o(const GraphSnapshot& graph, std::ostream& out) {
+  out << std::setprecision(kAllDigits);
+  for (const KeyframeNode& keyframe : graph.keyframes) {
+    out << "VERTEX_SE3:QUAT " << keyframe.id.value << ' ';
+    writePose(keyframe.T_map_base, out);
+    out << '\n';
+  }
+  if (!graph.keyframes.empty()) out << "FIX " << graph.keyframes.front().id.value << '\n';
+  Tangent scale;
+  scale << 1.0, 1.0, 1.0, 2.0, 2.0, 2.0;
+  for (const RelativePoseEdge& edge : graph.edges) {
+    out << "EDGE_SE3:QUAT " << edge.from.value << ' ' << edge.to.value << ' ';
+    writePose(edge.T_from_to, out);
+    const Matrix6 information = scale.asDiagonal() * edge.information * scale.asDiagonal();
+    for (int row = 0; row < 6; ++row) {
+      for (int column = row; column < 6; ++column) out << ' ' << information(row, column);
+    }
+    out << '\n';
+  }
+}
+
+void writePcd(const Cloud& cloud, std::ostream& out) {
+  out << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity\n"
+         "SIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH "
+      << cloud.size() << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << cloud.size()
+      << "\nDATA binary\n";
+  std::vector<float> values;
+  values.reserve(4 * cloud.size());
+  for (const Point& p : cloud) values.insert(values.end(), {p.x, p.y, p.z, p.intensity});
+  out.write(reinterpret_cast<const char*>(values.data()),
+            static_cast<std::streamsize>(values.size() * sizeof(float)));
+}
+
+}  // namespace mrpt_sgraphs

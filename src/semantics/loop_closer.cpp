@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mrpt_sgraphs/semantics/loop_closer.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "mrpt_sgraphs/frontend/thinning.h"
+#include "mrpt_sgraphs/graph/uncertainty.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+constexpr double kRadiusSigmas = 3.0;
+/// Covariances that are added up know nothing of systematic errors: gates are opened by this factor.
+constexpr double kGateInflation = 4.0;
+constexpr double kRegistrationVoxel_m = 0.2;
+constexpr std::size_t kRegistrationPoints = 2500;
+/// Places that look less alike than this from above are not tried for their looks.
+constexpr double kMinSimilarity = 0.45;
+
+Eigen::Matrix3d levelRotation(const KeyframeNode& keyframe) {
+  // the odometry frame is level: what is left of the keyframe's rotation when its yaw is taken out
+  const Eigen::Matrix3d R = keyframe.T_odom_base.linear();
+  const double yaw = std::atan2(R(1, 0), R(0, 0));
+  return Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix() * R;
+}
+
+std::vector<ScanPoint> pointsOf(const Cloud& cloud) {
+  const std::vector<int> kept = firstInVoxels(cloud, kRegistrationVoxel_m);
+  const std::size_t stride = kept.size() / kRegistrationPoints + 1;
+  std::vector<ScanPoint> points;
+  for (std::size_t i = 0; i < kept.size(); i += stride) {
+    const Point& p = cloud[static_cast<std::size_t>(kept[i])];
+    points.push_back({p.getVector3fMap().cast<double>(), 0.0});
+  }
+  return points;
+}
+
+}  // namespace
+
+struct LoopCloser::Candidate {
+  std::size_t index = 0;       ///< of the old keyframe
+  Pose T_old_new_guess = Pose::Identity();
+  double distance_m = 0.0;
+  double similarity = 0.0;
+};
+
+void LoopCloser::describe(const std::vector<KeyframeNode>& keyframes) {
+  for (std::size_t i = contexts_.size(); i < keyframes.size(); ++i) {
+    contexts_.emplace_back(*keyframes[i].cloud, levelRotation(keyframes[i]));
+    const double step_m =
+        i == 0 ? 0.0
+               : (keyframes[i].T_odom_base.translation() -
+                  keyframes[i - 1].T_odom_base.translation()).norm();
+    path_m_.push_back(i == 0 ? 0.0 : path_m_.back() + step_m);
+  }
+}
+
+std::vector<LoopCloser::Candidate> LoopCloser::candidates(
+    const std::vector<KeyframeNode>& keyframes, const std::vector<Matrix6>& uncertainty) const {
+  const std::size_t newest = keyframes.size() - 1;
+  std::vector<Candidate> near;
+  for (std::size_t i = 0; i < newest && path_m_[newest] - path_m_[i] > config_.min_path_m; ++i) {
+    Candidate candidate;
+    candidate.index = i;
+    candidate.T_old_new_guess =
+        keyframes[i].T_map_base.inverse() * keyframes[newest].T_map_base;
+    candidate.distance_m = candidate.T_old_new_guess.translation().norm();
+    const double sigma_m = std::sqrt(uncertainty[i].topLeftCorner<3, 3>().trace());
+    const double radius_m =
+        std::clamp(kRadiusSigmas * sigma_m, config_.min_radius_m, config_.max_radius_m);
+    if (candidate.distance_m < radius_m) near.push_back(candidate);
+  }
+  if (near.empty()) return near;
+
+  std::sort(near.begin(), near.end(),
+            [](const auto& a, const auto& b) { return a.distance_m < b.distance_m; });
+  std::vector<Candidate> chosen{near.front()};
+  for (Candidate& candidate : near) {
+    const auto comparison = contexts_[candidate.index].compare(contexts_[newest]);
+    candidate.similarity = comparison.similarity;
+    const Eigen::Matrix3d R_level_old = levelRotation(keyframes[candidate.index]);
+    const Eigen::Matrix3d R_level_new = levelRotation(keyframes[newest]);
+    candidate.T_old_new_guess.setIdentity();
+    candidate.T_old_new_guess.linear() =
+        R_level_old.transpose() *
+        Eigen::AngleAxisd(comparison.yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
+        R_level_new;
+  }
+  std::sort(near.begin(), near.end(),
+            [](const auto& a, const auto& b) { return a.similarity > b.similarity; });
+  for (const Candidate& candidate : near) {
+    if (chosen.size() >= static_cast<std::size_t>(config_.max_candidates)) break;
+    if (candidate.similarity < kMinSimilarity) break;
+    chosen.push_back(candidate);
+  }
+  return chosen;
+}
+
+std::optional<RelativePoseEdge> LoopCloser::verify(const Candidate& candidate,
+                                                   const std::vector<KeyframeNode>& keyframes,
+                                                   const Matrix6& uncertainty) const {
+  const KeyframeNode& old = keyframes[candidate.index];
+  const KeyframeNode& newest = keyframes.back();
+
+  VoxelMap submap(config_.map);
+  const Pose T_old_map = old.T_map_base.inverse();
+  const std::size_t reach = static_cast<std::size_t>(config_.submap_keyframes / 2);
+  const std::size_t from = candidate.index > reach ? candidate.index - reach : 0;
+  for (std::size_t i = from; i <= candidate.index + reach && i + 1 < keyframes.size(); ++i) {
+    const Pose T_old_other = T_old_map * keyframes[i].T_map_base;
+    const Cloud& cloud = *keyframes[i].cloud;
+    const Eigen::Vector3d viewpoint =
+        T_old_other * Eigen::Vector3d(cloud.sensor_origin_.head<3>().cast<double>());
+    for (const Point& p : cloud) {
+      submap.insert(T_old_other * Eigen::Vector3d(p.getVector3fMap().cast<double>()), viewpoint);
+    }
+  }
+  submap.refit();
+
+  MotionPrior prior;
+  prior.mean.T_map_base = candidate.T_old_new_guess;
+  // says next to nothing, but keeps the equations solvable where the points do not
+  prior.pose_information = 1e-2 * Matrix6::Identity();
+  prior.velocity_information = Matrix6::Identity();
+  const RegistrationResult fit =
+      registerScan(pointsOf(*newest.cloud), submap, prior,
+                   newest.cloud->sensor_origin_.head<3>().cast<double>(), config_.registration,
+                   VoxelMap::kLevels - 1);
+  if (!fit.converged || fit.degenerate_directions > 0 || fit.inlier_ratio < config_.min_overlap ||
+      fit.rms_m > config_.max_rms_m) {
+    return std::nullopt;
+  }
+
+  Tangent floor;
+  floor << Eigen::Vector3d::Constant(config_.sigma_floor_m * config_.sigma_floor_m),
+      Eigen::Vector3d::Constant(config_.sigma_floor_rad * config_.sigma_floor_rad);
+  const Matrix6 covariance = fit.information.inverse() + Matrix6(floor.asDiagonal());
+  const Tangent surprise = local(old.T_map_base.inverse() * newest.T_map_base,
+                                 fit.estimate.T_map_base);
+  const Matrix6 gate = kGateInflation * uncertainty + covariance;
+  if (surprise.dot(gate.ldlt().solve(surprise)) > config_.max_chi2) return std::nullopt;
+
+  RelativePoseEdge edge;
+  edge.from = old.id;
+  edge.to = newest.id;
+  edge.T_from_to = fit.estimate.T_map_base;
+  edge.information = covariance.inverse();
+  edge.kind = RelativePoseEdge::Kind::kLoopClosure;
+  return edge;
+}
+
+std::vector<RelativePoseEdge> LoopCloser::find(const std::vector<KeyframeNode>& keyframes,
+                                               const std::vector<RelativePoseEdge>& edges) {
+  if (!config_.enabled || keyframes.empty()) return {};
+  describe(keyframes);
+  if (path_m_.back() - searched_at_m_ < config_.min_interval_m) return {};
+  if (path_m_.back() < config_.min_path_m) return {};
+  searched_at_m_ = path_m_.back();
+
+  const std::vector<Matrix6> uncertainty = uncertaintyToNewest(keyframes, edges);
+  std::vector<RelativePoseEdge> loops;
+  for (const Candidate& candidate : candidates(keyframes, uncertainty)) {
+    const auto loop = verify(candidate, keyframes, uncertainty[candidate.index]);
+    if (!loop) continue;
+    loops.push_back(*loop);
+    break;  // one good loop a search is enough: further ones repeat its points
+  }
+  return loops;
+}
+
+}  // namespace mrpt_sgraphs
