@@ -20,6 +20,11 @@ constexpr double kSeam_rad = 0.003;
 /// With a gyroscope the turning within a scan is known up to its bias and noise.
 constexpr double kGyro_rad_s = 0.02;
 constexpr double kGyroTurn_rad = 0.003;  ///< and that between two scans.
+/// Odometry of wheels or legs takes a turn wrong by this share.
+constexpr double kOdomTurnError = 0.1;
+/// A robot that starts may already be moving.
+constexpr double kFirstSpeed_m_s = 1.0;
+constexpr double kFirstTurn_rad_s = 1.0;
 /// Voxel edge that thins a scan for registration, so that near walls do not outvote far ones.
 constexpr double kThinning_m = 0.15;
 /// Times of a scan that all lie closer together than this say nothing of its motion.
@@ -35,7 +40,6 @@ constexpr double kSuspicious = 0.8;
 constexpr double kMaxSurprise = 100.0;
 constexpr double kLost_m = 1.0;
 constexpr double kLost_rad = 0.5;
-constexpr double kLostVelocity = 0.1;  ///< of the information that the velocity is left with
 /// A scan that may be far from its prediction is tried with headings to both sides of it.
 constexpr double kSearchStep_rad = 0.17;
 constexpr double kMaxSearch_rad = 0.8;
@@ -55,6 +59,33 @@ Matrix6 informationOf(double sigma_m, double sigma_rad) {
   information << Eigen::Vector3d::Constant(1.0 / (sigma_m * sigma_m)),
       Eigen::Vector3d::Constant(1.0 / (sigma_rad * sigma_rad));
   return information.asDiagonal();
+}
+
+struct MotionNoise {
+  double acceleration;  ///< [m/s^2 or rad/s^2]
+  double seam;          ///< [m or rad]
+};
+
+/// Adds to the covariance of (pose, velocity), at rows `at` and 6 + `at`, what a constant velocity
+/// may be wrong by after dt_s: the velocity changes all the time, the pose is off only for the part
+/// that the last sweep did not see.
+void addMotionNoise(const MotionNoise& noise, int at, double dt_s, double unseen_s,
+                    Matrix12* covariance) {
+  const double drift = 0.5 * noise.acceleration * unseen_s * unseen_s;
+  const double pose = noise.seam * noise.seam + drift * drift;
+  const double cross = drift * noise.acceleration * unseen_s;
+  const double change = noise.acceleration * dt_s;
+  for (int k = at; k < at + 3; ++k) {
+    (*covariance)(k, k) += pose;
+    (*covariance)(k, 6 + k) += cross;
+    (*covariance)(6 + k, k) += cross;
+    (*covariance)(6 + k, 6 + k) += change * change;
+  }
+}
+
+/// Of the pose, whatever the velocity is.
+Matrix6 covarianceOfPose(const Matrix12& information) {
+  return information.ldlt().solve(Matrix12::Identity()).topLeftCorner<6, 6>();
 }
 
 /// The first and last time of the points [s]; {0, 0} where there are none worth the name.
@@ -134,68 +165,87 @@ void Odometry::reset() { *this = Odometry(config_); }
 MotionPrior Odometry::predict(double stamp_s, bool has_gyro) const {
   const double dt_s = stamp_s - last_->stamp_s;
   const double unseen_s = last_had_times_ ? std::max(0.0, stamp_s - last_sweep_end_s_) : dt_s;
-  const double acceleration = config_.max_acceleration_m_s2;
-  const double angular_acceleration = config_.max_angular_acceleration_rad_s2;
 
-  MotionPrior prior;
   Pose T_last_now = Pose::Identity();
   T_last_now.translation() = dt_s * last_->velocity_base.head<3>();
   T_last_now.linear() = expSO3(dt_s * last_->velocity_base.tail<3>());
-  double sigma_m = kSeam_m + 0.5 * acceleration * unseen_s * unseen_s;
-  double sigma_rad = kSeam_rad + 0.5 * angular_acceleration * unseen_s * unseen_s;
-  double sigma_rad_s = angular_acceleration * dt_s;
-
   const auto R_gyro = imu_.rotation(last_->stamp_s, stamp_s);
-  if (R_gyro) {
-    T_last_now.linear() = *R_gyro;
-    sigma_rad = std::min(sigma_rad, kGyroTurn_rad + kGyro_rad_s * dt_s);
-  }
-  prior.pose_information = informationOf(sigma_m, sigma_rad);
-
-  if (const auto T_odom = odom_in_.motion(last_->stamp_s, stamp_s)) {
-    const double distance_m = T_odom->translation().norm();
-    const double turn_rad = logSO3(T_odom->linear()).norm();
-    const Matrix6 odom_information = informationOf(
-        kSeam_m + config_.odom_in_sigma_m_per_m * (distance_m + turn_rad),
-        kSeam_rad + config_.odom_in_sigma_rad_per_m * (distance_m + turn_rad) + 0.1 * turn_rad);
-    const Matrix6 sum = prior.pose_information + odom_information;
-    T_last_now = retract(T_last_now,
-                         sum.ldlt().solve(odom_information * local(T_last_now, *T_odom)));
-    prior.pose_information = sum;
-  }
-
-  prior.mean.T_map_base = last_->T_odom_base * T_last_now;
+  if (R_gyro) T_last_now.linear() = *R_gyro;
   const Eigen::Matrix3d R_now_last = T_last_now.linear().transpose();
-  prior.mean.velocity_base.head<3>() = R_now_last * last_->velocity_base.head<3>();
-  if (has_gyro) {
-    sigma_rad_s = kGyro_rad_s;
+
+  MotionPrior prior;
+  prior.mean.T_map_base = last_->T_odom_base * T_last_now;
+  prior.mean.velocity_base << R_now_last * last_->velocity_base.head<3>(),
+      last_->velocity_base.tail<3>();
+
+  // the last covariance, carried along
+  Matrix12 F = Matrix12::Zero();
+  F.topLeftCorner<6, 6>() = adjointOfInverse(T_last_now);
+  F.block<3, 3>(0, 6) = dt_s * R_now_last;
+  F.block<3, 3>(3, 9) = (R_gyro ? 0.0 : dt_s) * Eigen::Matrix3d::Identity();
+  F.block<3, 3>(6, 6) = R_now_last;
+  F.block<3, 3>(9, 9).setIdentity();
+  Matrix12 covariance = F * last_covariance_ * F.transpose();
+  addMotionNoise({config_.max_acceleration_m_s2, kSeam_m}, 0, dt_s, unseen_s, &covariance);
+  if (R_gyro) {
+    const double sigma_rad = kGyroTurn_rad + kGyro_rad_s * dt_s;
+    covariance.block<3, 3>(3, 3) += sigma_rad * sigma_rad * Eigen::Matrix3d::Identity();
   } else {
-    prior.mean.velocity_base.tail<3>() = last_->velocity_base.tail<3>();
+    addMotionNoise({config_.max_angular_acceleration_rad_s2, kSeam_rad}, 3, dt_s, unseen_s,
+                   &covariance);
   }
-  prior.velocity_information = informationOf(kSeam_m + acceleration * dt_s, sigma_rad_s);
+  if (has_gyro) {  // what is estimated is the gyroscope's error, anew each scan
+    prior.mean.velocity_base.tail<3>().setZero();
+    covariance.bottomRows<3>().setZero();
+    covariance.rightCols<3>().setZero();
+    covariance.bottomRightCorner<3, 3>() = kGyro_rad_s * kGyro_rad_s * Eigen::Matrix3d::Identity();
+  }
+  prior.information = covariance.ldlt().solve(Matrix12::Identity());
+
+  if (const auto T_odom = odom_in_.motion(last_->stamp_s, stamp_s)) fuseOdomIn(*T_odom, &prior);
   return prior;
 }
 
-MotionPrior Odometry::bestStart(const std::vector<ScanPoint>& points, const MotionPrior& prior,
-                                const Eigen::Vector3d& viewpoint_base) const {
+void Odometry::fuseOdomIn(const Pose& T_last_now, MotionPrior* prior) const {
+  const double turn_rad = logSO3(T_last_now.linear()).norm();
+  const double way_m = T_last_now.translation().norm() + turn_rad;
+  const Matrix6 information = informationOf(kSeam_m + config_.odom_in_sigma_m_per_m * way_m,
+                                            kSeam_rad + config_.odom_in_sigma_rad_per_m * way_m +
+                                                kOdomTurnError * turn_rad);
+  const Tangent off =
+      local(prior->mean.T_map_base, last_->T_odom_base * T_last_now);
+  prior->information.topLeftCorner<6, 6>() += information;
+  Eigen::Matrix<double, 12, 1> pull = Eigen::Matrix<double, 12, 1>::Zero();
+  pull.head<6>() = information * off;
+  const Eigen::Matrix<double, 12, 1> step = prior->information.ldlt().solve(pull);
+  prior->mean.T_map_base = retract(prior->mean.T_map_base, step.head<6>());
+  prior->mean.velocity_base += step.tail<6>();
+}
+
+MovingPose Odometry::bestStart(const std::vector<ScanPoint>& points, const MotionPrior& prior,
+                               const Eigen::Vector3d& viewpoint_base) const {
   std::vector<ScanPoint> few;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / kSearchPoints);
   for (std::size_t i = 0; i < points.size(); i += stride) few.push_back(points[i]);
 
-  const double sigma_rad = 1.0 / std::sqrt(prior.pose_information(5, 5));
-  const int steps = static_cast<int>(std::ceil(std::min(2.0 * sigma_rad, kMaxSearch_rad) / kSearchStep_rad));
-  MotionPrior best = prior;
+  const double sigma_rad = std::sqrt(covarianceOfPose(prior.information)(5, 5));
+  const double reach_rad = std::min(2.0 * sigma_rad, kMaxSearch_rad);
+  const int steps = static_cast<int>(std::ceil(reach_rad / kSearchStep_rad));
+  MovingPose best = prior.mean;
   double best_ratio = 0.0;
   for (int step = -steps; step <= steps; ++step) {
-    MotionPrior start = prior;
-    start.mean.T_map_base.linear() =
+    MovingPose turned = prior.mean;
+    turned.T_map_base.linear() =
         prior.mean.T_map_base.linear() *
         Eigen::AngleAxisd(step * kSearchStep_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    const RegistrationResult fit = registerScan(few, map_, start, viewpoint_base,
-                                                config_.registration, VoxelMap::kLevels - 1);
+    // each on its own terms: a prior would favour the middle
+    MotionPrior own = prior;
+    own.mean = turned;
+    const RegistrationResult fit = registerScan(few, map_, own, {turned, VoxelMap::kLevels - 1},
+                                                viewpoint_base, config_.registration);
     if (fit.inlier_ratio > best_ratio) {
       best_ratio = fit.inlier_ratio;
-      best.mean = fit.estimate;
+      best = fit.estimate;
     }
   }
   return best;
@@ -205,21 +255,25 @@ RegistrationResult Odometry::placeScan(const std::vector<ScanPoint>& points,
                                        const MotionPrior& prior,
                                        const Eigen::Vector3d& viewpoint_base) {
   RegistrationResult best =
-      registerScan(points, map_, prior, viewpoint_base, config_.registration);
-  const double reach_m = 1.0 / std::sqrt(prior.pose_information(0, 0)) +
-                         kReach_m / std::sqrt(prior.pose_information(5, 5));
+      registerScan(points, map_, prior, {prior.mean}, viewpoint_base, config_.registration);
+  const Matrix6 covariance = covarianceOfPose(prior.information);
+  const double reach_m =
+      std::sqrt(covariance.topLeftCorner<3, 3>().diagonal().maxCoeff()) +
+      kReach_m * std::sqrt(covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff());
   const Tangent surprise = local(prior.mean.T_map_base, best.estimate.T_map_base);
-  const bool jumped = surprise.dot(prior.pose_information * surprise) > kMaxSurprise ||
+  const bool jumped = surprise.dot(covariance.ldlt().solve(surprise)) > kMaxSurprise ||
                       best.inlier_ratio < kSuspicious * usual_inlier_ratio_;
   if (jumped || reach_m > config_.map.voxel_size_m) {
     MotionPrior loose = prior;
     if (jumped) {  // scans were lost, stamps lie, or the robot was pushed
-      loose.pose_information = informationOf(kLost_m, kLost_rad);
-      loose.velocity_information *= kLostVelocity;
+      loose.information.setZero();
+      loose.information.topLeftCorner<6, 6>() = informationOf(kLost_m, kLost_rad);
+      loose.information.bottomRightCorner<6, 6>() =
+          informationOf(kFirstSpeed_m_s, kFirstTurn_rad_s);
     }
-    const MotionPrior start = bestStart(points, loose, viewpoint_base);
     const RegistrationResult fit =
-        registerScan(points, map_, start, viewpoint_base, config_.registration);
+        registerScan(points, map_, loose, {bestStart(points, loose, viewpoint_base)},
+                     viewpoint_base, config_.registration);
     if (fit.inlier_ratio > best.inlier_ratio) best = fit;
   }
   constexpr double kMemory = 0.9;
@@ -236,6 +290,10 @@ void Odometry::start(const Cloud& scan, OdometryResult* result) {
   const auto R_level = imu_.level(result->stamp_s - kLevelSpan_s, result->stamp_s + kLevelSpan_s);
   result->T_odom_base.linear() = R_level ? *R_level : levelFromGround(first.planes(1));
   result->covariance = informationOf(kSeam_m, kSeam_rad).inverse();
+  last_covariance_.setZero();
+  last_covariance_.topLeftCorner<6, 6>() = result->covariance;
+  last_covariance_.bottomRightCorner<6, 6>() =
+      informationOf(kFirstSpeed_m_s, kFirstTurn_rad_s).inverse();
   result->deskewed.reset(new Cloud(scan));
   result->registered = true;
   result->inlier_ratio = 1.0;
@@ -295,23 +353,18 @@ std::optional<OdometryResult> Odometry::process(const Cloud& scan) {
     result.degenerate_directions = result.registered ? fit.degenerate_directions : 6;
     result.inlier_ratio = fit.inlier_ratio;
     result.iterations = fit.iterations;
-    const Matrix6 data = result.registered ? fit.information : Matrix6::Zero();
-    result.covariance = (data + prior.pose_information).inverse();
+    last_covariance_ = (result.registered ? fit.posterior_information : prior.information)
+                           .ldlt()
+                           .solve(Matrix12::Identity());
+    result.covariance = last_covariance_.topLeftCorner<6, 6>();
     if (!result.registered && result.problem.empty()) {
       result.problem = "only " + std::to_string(fit.matched) + " of " +
                        std::to_string(points.size()) + " points lie on the local map";
     }
     result.deskewed = deskew(scan, turning, result.velocity_base, has_times);
-    if (has_times && turning.known()) {
+    if (turning.known()) {
       imu_.correctBias(-result.velocity_base.tail<3>());
-    }
-    if (!has_times || turning.known()) {
-      // what the scan itself could not say: the mean motion since the last one
       const Pose T_last_now = last_->T_odom_base.inverse() * result.T_odom_base;
-      const Eigen::Matrix3d R_now_last = T_last_now.linear().transpose();
-      if (!has_times) {
-        result.velocity_base.head<3>() = R_now_last * T_last_now.translation() / dt_s;
-      }
       result.velocity_base.tail<3>() = logSO3(T_last_now.linear()) / dt_s;
     }
     result.deskew_ms += watch.lap();

@@ -12,7 +12,6 @@ namespace mrpt_sgraphs {
 namespace {
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
-using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
 /// At this distance a rotation moves points as much as it is compared with in `min_eigenvalue`.
 constexpr double kLever_m = 5.0;
@@ -143,11 +142,12 @@ Eigen::Vector3d pointAtStamp(const ScanPoint& point, const Tangent& velocity_bas
 }
 
 RegistrationResult registerScan(const std::vector<ScanPoint>& points, const VoxelMap& map,
-                                const MotionPrior& prior, const Eigen::Vector3d& viewpoint_base,
-                                const RegistrationConfig& config, int start_level) {
+                                const MotionPrior& prior, const RegistrationStart& start,
+                                const Eigen::Vector3d& viewpoint_base,
+                                const RegistrationConfig& config) {
   RegistrationResult result;
-  result.estimate = prior.mean;
-  int level = start_level;
+  result.estimate = start.pose;
+  int level = start.level;
   int iterations_at_level = 0;
 
   for (result.iterations = 0; result.iterations < config.max_iterations && !result.converged;
@@ -159,19 +159,25 @@ RegistrationResult registerScan(const std::vector<ScanPoint>& points, const Voxe
     const double scale_m = robustScale(matches);
 
     const NormalEquations data = accumulate(matches, result.estimate.T_map_base, scale_m);
-    result.information = data.poseInformation(prior.velocity_information);
+    result.information = data.poseInformation(prior.information.bottomRightCorner<6, 6>());
     const auto weak = degenerateDirections(result.information, config.min_eigenvalue);
     result.degenerate_directions = static_cast<int>(weak.cols());
 
-    const Matrix6 hold = kHold * weak * weak.transpose();
-    const Matrix6 pose_prior = prior.pose_information + hold;
-    const Tangent pose_off = local(prior.mean.T_map_base, result.estimate.T_map_base);
-    const Tangent velocity_off = result.estimate.velocity_base - prior.mean.velocity_base;
+    Matrix12 h = prior.information;
+    h.topLeftCorner<6, 6>() += data.h0;
+    h.topRightCorner<6, 6>() += data.h1;
+    h.bottomLeftCorner<6, 6>() += data.h1;
+    h.bottomRightCorner<6, 6>() += data.h2;
+    result.posterior_information = h;
 
-    Matrix12 h;
-    h << data.h0 + pose_prior, data.h1, data.h1, data.h2 + prior.velocity_information;
-    Vector12 g;
-    g << data.g0 + pose_prior * pose_off, data.g1 + prior.velocity_information * velocity_off;
+    Vector12 off;  // from the prior's mean
+    off << local(prior.mean.T_map_base, result.estimate.T_map_base),
+        result.estimate.velocity_base - prior.mean.velocity_base;
+    const Matrix6 hold = kHold * weak * weak.transpose();
+    h.topLeftCorner<6, 6>() += hold;
+    Vector12 g = prior.information * off;
+    g.head<6>() += data.g0 + hold * off.head<6>();
+    g.tail<6>() += data.g1;
     const Vector12 step = h.ldlt().solve(-g);
     if (!step.allFinite()) break;
 

@@ -101,6 +101,7 @@ TopicWatchdog::TopicWatchdog(ros::NodeHandle& nh, std::string topic, std::string
 
 void TopicWatchdog::arrived(ros::Time stamp) {
   if (said_silent_) ROS_INFO("'%s' arrives.", topic_.c_str());
+  if (!ever_arrived_) stamps_fit_at_ = Clock::now();
   ever_arrived_ = true;
   said_silent_ = false;
   quiet_since_ = Clock::now();
@@ -123,16 +124,21 @@ void TopicWatchdog::check() {
 
 void TopicWatchdog::checkStamp(ros::Time stamp) {
   constexpr double kMaxOffset_s = 10.0;
+  constexpr std::chrono::seconds kPatience(2);  // /clock may start a little later than the data
   const ros::Time now = ros::Time::now();
   const double offset_s = now.toSec() - stamp.toSec();
-  if (std::abs(offset_s) < kMaxOffset_s || !stamp_warning_.passes()) return;
+  if (std::abs(offset_s) < kMaxOffset_s) {
+    stamps_fit_at_ = Clock::now();
+    return;
+  }
+  if (Clock::now() - stamps_fit_at_ < kPatience || !stamp_warning_.passes()) return;
   if (now.isZero()) {
     ROS_WARN("'%s' arrives, but use_sim_time is set and /clock does not run: play with --clock.",
              topic_.c_str());
   } else {
     ROS_WARN(
-        "The stamps of '%s' lie %.0f s %s ros::Time::now(), so tf will not match them: a bag "
-        "needs use_sim_time and rosbag play --clock, a driver the right time.",
+        "The stamps of '%s' lie %.0f s %s ros::Time::now(), so tf will not match them: a bag needs "
+        "use_sim_time and rosbag play --clock, a driver the right time.",
         topic_.c_str(), std::abs(offset_s), offset_s > 0.0 ? "before" : "after");
   }
 }

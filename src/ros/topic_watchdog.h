@@ -48,6 +48,7 @@ class TopicWatchdog {
   Clock::time_point quiet_since_ = Clock::now();
   bool ever_arrived_ = false;
   bool said_silent_ = false;
+  Clock::time_point stamps_fit_at_;  ///< To ros::Time, as far as one can tell.
   Throttle stamp_warning_{60.0};
   ros::SteadyTimer timer_;  ///< Last member: no callback outlives the others.
 };

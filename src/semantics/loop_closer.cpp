@@ -124,12 +124,10 @@ std::optional<RelativePoseEdge> LoopCloser::verify(const Candidate& candidate,
   MotionPrior prior;
   prior.mean.T_map_base = candidate.T_old_new_guess;
   // says next to nothing, but keeps the equations solvable where the points do not
-  prior.pose_information = 1e-2 * Matrix6::Identity();
-  prior.velocity_information = Matrix6::Identity();
+  prior.information = 1e-2 * Matrix12::Identity();
   const RegistrationResult fit =
-      registerScan(pointsOf(*newest.cloud), submap, prior,
-                   newest.cloud->sensor_origin_.head<3>().cast<double>(), config_.registration,
-                   VoxelMap::kLevels - 1);
+      registerScan(pointsOf(*newest.cloud), submap, prior, {prior.mean, VoxelMap::kLevels - 1},
+                   newest.cloud->sensor_origin_.head<3>().cast<double>(), config_.registration);
   if (!fit.converged || fit.degenerate_directions > 0 || fit.inlier_ratio < config_.min_overlap ||
       fit.rms_m > config_.max_rms_m) {
     return std::nullopt;

@@ -65,9 +65,10 @@ struct OdometryResult {
 ///
 /// Pose and velocity at the scan's stamp are estimated together (12 unknowns): a point measured at
 /// time tau sits at T exp(tau v) p, so a sweep that a gait distorts is straightened by what it shows
-/// itself. The end of the last scan predicts the start of this one, with an uncertainty from the
-/// largest acceleration; directions that the scan does not constrain stay with that prediction. An
-/// IMU supplies the turning within the scan where there is one, `odom_in` the motion between scans.
+/// itself. The last estimate with its covariance predicts the next as a Kalman filter does, with a
+/// noise that follows from the largest acceleration: what one scan does not show of pose or velocity
+/// the sequence does, and directions that no point constrains stay with the prediction. An IMU
+/// supplies the turning within the scan where there is one, `odom_in` the motion between scans.
 class Odometry {
  public:
   explicit Odometry(const OdometryConfig& config);
@@ -84,9 +85,11 @@ class Odometry {
  private:
   /// @param has_gyro  The turning within the scan is known: only its error is left to estimate.
   MotionPrior predict(double stamp_s, bool has_gyro) const;
-  /// The prior with its mean moved to where a coarse search about it fits best.
-  MotionPrior bestStart(const std::vector<ScanPoint>& points, const MotionPrior& prior,
-                        const Eigen::Vector3d& viewpoint_base) const;
+  /// @param T_last_now  The motion since the last scan, as the robot's odometry has it.
+  void fuseOdomIn(const Pose& T_last_now, MotionPrior* prior) const;
+  /// Where a coarse search about the prior's mean fits best.
+  MovingPose bestStart(const std::vector<ScanPoint>& points, const MotionPrior& prior,
+                       const Eigen::Vector3d& viewpoint_base) const;
   RegistrationResult placeScan(const std::vector<ScanPoint>& points, const MotionPrior& prior,
                                const Eigen::Vector3d& viewpoint_base);
   void start(const Cloud& scan, OdometryResult* result);
@@ -97,6 +100,7 @@ class Odometry {
   ImuBuffer imu_;
   OdomBuffer odom_in_;
   std::optional<OdometryResult> last_;  ///< Without its cloud.
+  Matrix12 last_covariance_ = Matrix12::Zero();  ///< Of its pose and velocity.
   double last_sweep_end_s_ = 0.0;
   bool last_had_times_ = false;
   double usual_inlier_ratio_ = 0.5;

@@ -40,12 +40,13 @@ struct MovingPose {
   Tangent velocity_base = Tangent::Zero();  ///< [v; omega], m/s and rad/s
 };
 
-/// What is believed of a MovingPose before a scan is seen: 12 unknowns, the pose's six before the
-/// velocity's, right perturbation.
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+
+/// What is believed of a MovingPose before a scan is seen: 12 unknowns, the pose's six (right
+/// perturbation) before the velocity's.
 struct MotionPrior {
   MovingPose mean;
-  Matrix6 pose_information = Matrix6::Zero();
-  Matrix6 velocity_information = Matrix6::Zero();
+  Matrix12 information = Matrix12::Zero();
 };
 
 /// Where a point is in the base frame of the stamp: its motion removed.
@@ -53,7 +54,8 @@ Eigen::Vector3d pointAtStamp(const ScanPoint& point, const Tangent& velocity_bas
 
 struct RegistrationResult {
   MovingPose estimate;
-  Matrix6 information = Matrix6::Zero();  ///< Of T_map_base from the points alone, velocity free.
+  Matrix6 information = Matrix6::Zero();  ///< Of T_map_base from the points, its velocity free.
+  Matrix12 posterior_information = Matrix12::Zero();  ///< Of all, from points and prior.
   int degenerate_directions = 0;
   int matched = 0;           ///< Points that have a plane and lie on it.
   double inlier_ratio = 0.0; ///< matched / all
@@ -62,14 +64,19 @@ struct RegistrationResult {
   bool converged = false;
 };
 
-/// Fits the points to the planes of the map, from the prior's mean: iteratively re-weighted
-/// point-to-plane with a Cauchy kernel. Directions with less information than `min_eigenvalue` are
-/// left to the prior.
+/// Where a registration begins to look.
+struct RegistrationStart {
+  MovingPose pose;
+  /// Of the map: 0 near the solution, up to kLevels - 1 where it may be off by metres.
+  int level = 0;
+};
+
+/// Fits the points to the planes of the map: iteratively re-weighted point-to-plane with a Cauchy
+/// kernel. Directions with less information than `min_eigenvalue` are left to the prior.
 /// @param viewpoint_base  The sensor's place on the robot.
-/// @param start_level     Of the map, to begin with: 0 for a good prediction, up to kLevels - 1 for
-///                        one that is off by metres.
 RegistrationResult registerScan(const std::vector<ScanPoint>& points, const VoxelMap& map,
-                                const MotionPrior& prior, const Eigen::Vector3d& viewpoint_base,
-                                const RegistrationConfig& config, int start_level = 0);
+                                const MotionPrior& prior, const RegistrationStart& start,
+                                const Eigen::Vector3d& viewpoint_base,
+                                const RegistrationConfig& config);
 
 }  // namespace mrpt_sgraphs
