@@ -67,14 +67,15 @@ struct MotionNoise {
 };
 
 /// Adds to the covariance of (pose, velocity), at rows `at` and 6 + `at`, what a constant velocity
-/// may be wrong by after dt_s: the velocity changes all the time, the pose is off only for the part
-/// that the last sweep did not see.
+/// may be wrong by after dt_s. The velocity changes all the time; it is taken to change at once, so
+/// that the pose is off by the change for the part that the last sweep did not see. (Were it taken to
+/// change steadily, each displacement would set the velocity to twice its mean, and so swing.)
 void addMotionNoise(const MotionNoise& noise, int at, double dt_s, double unseen_s,
                     Matrix12* covariance) {
-  const double drift = 0.5 * noise.acceleration * unseen_s * unseen_s;
-  const double pose = noise.seam * noise.seam + drift * drift;
-  const double cross = drift * noise.acceleration * unseen_s;
   const double change = noise.acceleration * dt_s;
+  const double drift = change * unseen_s;
+  const double pose = noise.seam * noise.seam + drift * drift;
+  const double cross = drift * change;
   for (int k = at; k < at + 3; ++k) {
     (*covariance)(k, k) += pose;
     (*covariance)(k, 6 + k) += cross;
@@ -256,25 +257,28 @@ RegistrationResult Odometry::placeScan(const std::vector<ScanPoint>& points,
                                        const Eigen::Vector3d& viewpoint_base) {
   RegistrationResult best =
       registerScan(points, map_, prior, {prior.mean}, viewpoint_base, config_.registration);
+  const auto search = [&](const MotionPrior& from) {
+    const RegistrationResult fit =
+        registerScan(points, map_, from, {bestStart(points, from, viewpoint_base)},
+                     viewpoint_base, config_.registration);
+    if (fit.inlier_ratio > best.inlier_ratio) best = fit;
+  };
+  const auto suspicious = [&] { return best.inlier_ratio < kSuspicious * usual_inlier_ratio_; };
+
   const Matrix6 covariance = covarianceOfPose(prior.information);
   const double reach_m =
       std::sqrt(covariance.topLeftCorner<3, 3>().diagonal().maxCoeff()) +
       kReach_m * std::sqrt(covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff());
+  if (reach_m > config_.map.voxel_size_m || suspicious()) search(prior);
+
   const Tangent surprise = local(prior.mean.T_map_base, best.estimate.T_map_base);
-  const bool jumped = surprise.dot(covariance.ldlt().solve(surprise)) > kMaxSurprise ||
-                      best.inlier_ratio < kSuspicious * usual_inlier_ratio_;
-  if (jumped || reach_m > config_.map.voxel_size_m) {
-    MotionPrior loose = prior;
-    if (jumped) {  // scans were lost, stamps lie, or the robot was pushed
-      loose.information.setZero();
-      loose.information.topLeftCorner<6, 6>() = informationOf(kLost_m, kLost_rad);
-      loose.information.bottomRightCorner<6, 6>() =
-          informationOf(kFirstSpeed_m_s, kFirstTurn_rad_s);
-    }
-    const RegistrationResult fit =
-        registerScan(points, map_, loose, {bestStart(points, loose, viewpoint_base)},
-                     viewpoint_base, config_.registration);
-    if (fit.inlier_ratio > best.inlier_ratio) best = fit;
+  if (suspicious() || surprise.dot(covariance.ldlt().solve(surprise)) > kMaxSurprise) {
+    // scans were lost, stamps lie, or the robot was pushed
+    MotionPrior ignorant{prior.mean, Matrix12::Zero()};
+    ignorant.information.topLeftCorner<6, 6>() = informationOf(kLost_m, kLost_rad);
+    ignorant.information.bottomRightCorner<6, 6>() =
+        informationOf(kFirstSpeed_m_s, kFirstTurn_rad_s);
+    search(ignorant);
   }
   constexpr double kMemory = 0.9;
   usual_inlier_ratio_ = kMemory * usual_inlier_ratio_ + (1.0 - kMemory) * best.inlier_ratio;

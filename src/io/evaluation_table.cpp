@@ -36,6 +36,7 @@ std::string layOut(const std::string& title, const std::vector<Row>& rows, std::
   out << title << "\n";
   for (const Row& row : rows) {
     for (std::size_t k = 0; k < row.size(); ++k) {
+      if (row[k].empty()) continue;  // only at the end of a row
       out << "  " << (k < words ? std::left : std::right) << std::setw(static_cast<int>(widths[k]))
           << row[k];
     }

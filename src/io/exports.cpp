@@ -11,7 +11,7 @@
 namespace mrpt_sgraphs {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 constexpr int kGraphVersion = 1;
 constexpr int kAllDigits = 17;  ///< A double comes back as it was.
 

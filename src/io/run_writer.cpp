@@ -20,7 +20,7 @@
 namespace mrpt_sgraphs {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 template <typename Write>
 void writeFile(const std::string& path, const Write& write) {
