@@ -308,20 +308,24 @@ void Odometry::placeInMap(const Cloud& deskewed, const Pose& T_odom_base) {
     const Tangent motion = local(*last_in_map_, T_odom_base);
     if (motion.head<3>().norm() < kMapEvery_m && motion.tail<3>().norm() < kMapEvery_rad) return;
   }
+  const Eigen::Vector3d last_place = (last_in_map_ ? *last_in_map_ : T_odom_base).translation();
   last_in_map_ = T_odom_base;
   ++scans_in_map_;
 
+  way_m_ += (T_odom_base.translation() - last_place).norm();
   const Eigen::Vector3d viewpoint =
       T_odom_base * Eigen::Vector3d(deskewed.sensor_origin_.head<3>().cast<double>());
   const double stride = std::max(1.0, static_cast<double>(deskewed.size()) / config_.map_points);
   for (double i = 0.0; i < static_cast<double>(deskewed.size()); i += stride) {
     const Point& p = deskewed[static_cast<std::size_t>(i)];
-    map_.insert(T_odom_base * Eigen::Vector3d(p.getVector3fMap().cast<double>()), viewpoint);
+    map_.insert(T_odom_base * Eigen::Vector3d(p.getVector3fMap().cast<double>()), viewpoint,
+                way_m_);
   }
   map_.refit();
-  if ((T_odom_base.translation() - forgot_at_).norm() > kForgetEvery_m) {
-    map_.eraseBeyond(T_odom_base.translation(), config_.local_map_radius_m);
-    forgot_at_ = T_odom_base.translation();
+  if (way_m_ - forgot_at_m_ > kForgetEvery_m) {
+    map_.forget(T_odom_base.translation(), config_.local_map_radius_m,
+                way_m_ - config_.local_map_way_m);
+    forgot_at_m_ = way_m_;
   }
 }
 

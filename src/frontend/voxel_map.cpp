@@ -51,6 +51,7 @@ struct Surface {
 struct Cell {
   Surface faces[2];
   Eigen::Vector3d corner;
+  double seen_at = 0.0;  ///< Time of the last point, whatever the caller counts in.
   bool queued = false;
 };
 
@@ -58,11 +59,12 @@ class Grid {
  public:
   Grid(double edge_m, const VoxelMapConfig& config) : edge_m_(edge_m), config_(config) {}
 
-  void insert(const Eigen::Vector3d& point, const Eigen::Vector3d& ray) {
+  void insert(const Eigen::Vector3d& point, const Eigen::Vector3d& ray, double now) {
     const Eigen::Array3d index = (point.array() / edge_m_).floor();
     auto [entry, is_new] = cells_.try_emplace(keyOf(index));
     Cell& cell = entry->second;
     if (is_new) cell.corner = index.matrix() * edge_m_;
+    cell.seen_at = now;
 
     Surface& front = cell.faces[0];
     Surface& face = front.count == 0 || front.seenFrom(ray) ? front : cell.faces[1];
@@ -101,10 +103,11 @@ class Grid {
     return nullptr;
   }
 
-  void eraseBeyond(const Eigen::Vector3d& centre, double radius_m) {
+  void forget(const Eigen::Vector3d& centre, double radius_m, double oldest) {
     for (auto entry = cells_.begin(); entry != cells_.end();) {
-      const bool far = (entry->second.corner - centre).squaredNorm() > radius_m * radius_m;
-      entry = far ? cells_.erase(entry) : std::next(entry);
+      const Cell& cell = entry->second;
+      const bool far = (cell.corner - centre).squaredNorm() > radius_m * radius_m;
+      entry = far || cell.seen_at < oldest ? cells_.erase(entry) : std::next(entry);
     }
   }
 
@@ -178,9 +181,9 @@ VoxelMap::~VoxelMap() = default;
 VoxelMap::VoxelMap(VoxelMap&&) noexcept = default;
 VoxelMap& VoxelMap::operator=(VoxelMap&&) noexcept = default;
 
-void VoxelMap::insert(const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint) {
+void VoxelMap::insert(const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint, double now) {
   const Eigen::Vector3d ray = (point - viewpoint).normalized();
-  for (Grid& grid : levels_->grids) grid.insert(point, ray);
+  for (Grid& grid : levels_->grids) grid.insert(point, ray, now);
 }
 
 void VoxelMap::refit() {
@@ -202,9 +205,9 @@ const MapPlane* VoxelMap::find(const Eigen::Vector3d& point, const Eigen::Vector
   return plane;
 }
 
-void VoxelMap::eraseBeyond(const Eigen::Vector3d& centre, double radius_m) {
+void VoxelMap::forget(const Eigen::Vector3d& centre, double radius_m, double oldest) {
   refit();
-  for (Grid& grid : levels_->grids) grid.eraseBeyond(centre, radius_m);
+  for (Grid& grid : levels_->grids) grid.forget(centre, radius_m, oldest);
 }
 
 std::vector<MapPlane> VoxelMap::planes(int level) const {

@@ -16,7 +16,7 @@ namespace mrpt_sgraphs {
 /// launch.
 class PipelineNodelet : public nodelet::Nodelet {
  protected:
-  static constexpr std::uint32_t kQueueSize = 100;  ///< Ten seconds of a 10 Hz lidar.
+  static constexpr std::uint32_t kQueueSize = 50;  ///< Five seconds of a 10 Hz lidar.
 
   /// What onInit() is to other nodelets.
   /// @throws std::exception with one sentence if it cannot start.

@@ -16,8 +16,8 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// Half a second less than promised, for a master that takes its time.
-constexpr double kSilence_s = 4.5;
+/// A second less than promised: for the next check, and for a master that takes its time.
+constexpr double kSilence_s = 4.0;
 constexpr double kCheckEvery_s = 0.5;
 constexpr std::size_t kMaxHints = 3;
 

@@ -21,7 +21,10 @@ struct OdometryConfig {
   RegistrationConfig registration;
   double max_acceleration_m_s2 = 3.0;        ///< How wrong a constant velocity may be.
   double max_angular_acceleration_rad_s2 = 8.0;  ///< The same for turning.
-  double local_map_radius_m = 60.0;          ///< What is farther from the robot is forgotten.
+  double local_map_radius_m = 60.0;          ///< What is farther from the robot is forgotten,
+  /// and what was last seen so long a way ago: coming back to it is a loop for the graph to close,
+  /// not a jump for the odometry to make.
+  double local_map_way_m = 30.0;
   int registration_points = 2500;            ///< Points of a scan that are registered.
   int map_points = 12000;                    ///< Points of a scan that go into the local map.
   double odom_in_sigma_m_per_m = 0.05;       ///< Error of the robot's odometry over a distance.
@@ -35,6 +38,7 @@ struct OdometryConfig {
     field("max_acceleration_m_s2", self.max_acceleration_m_s2, 0.1, 100.0);
     field("max_angular_acceleration_rad_s2", self.max_angular_acceleration_rad_s2, 0.1, 1000.0);
     field("local_map_radius_m", self.local_map_radius_m, 5.0, 1000.0);
+    field("local_map_way_m", self.local_map_way_m, 1.0, 1e6);
     field("registration_points", self.registration_points, 100, 100000);
     field("map_points", self.map_points, 100, 1000000);
     field("odom_in_sigma_m_per_m", self.odom_in_sigma_m_per_m, 1e-4, 1.0);
@@ -106,7 +110,8 @@ class Odometry {
   double usual_inlier_ratio_ = 0.5;
   std::optional<Pose> last_in_map_;  ///< T_odom_base of the last scan that went into the map.
   int scans_in_map_ = 0;
-  Eigen::Vector3d forgot_at_ = Eigen::Vector3d::Zero();  ///< Where the map last forgot what is far.
+  double way_m_ = 0.0;        ///< Covered so far.
+  double forgot_at_m_ = 0.0;  ///< When the map last forgot.
 };
 
 }  // namespace mrpt_sgraphs

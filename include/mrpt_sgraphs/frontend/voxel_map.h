@@ -12,10 +12,10 @@ namespace mrpt_sgraphs {
 
 /// How space is cut into planes.
 struct VoxelMapConfig {
-  double voxel_size_m = 0.4;      ///< Edge of the finest cells.
+  double voxel_size_m = 0.5;      ///< Edge of the finest cells.
   double max_thickness_m = 0.05;  ///< A cell is a plane if its points are no thicker (one sigma).
   int min_points = 6;             ///< Fewer points are no plane.
-  int max_points = 150;  ///< Then a plane is known well enough and stays: the map does not creep.
+  int max_points = 60;   ///< Then a plane is known well enough and stays: the map does not creep.
 
   template <typename Self, typename Field>
   static void fields(Self& self, Field&& field) {
@@ -48,7 +48,8 @@ class VoxelMap {
   VoxelMap& operator=(VoxelMap&&) noexcept;
 
   /// Adds a point seen from `viewpoint`, both in the map's frame [m]. refit() makes planes of them.
-  void insert(const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint);
+  /// @param now  What forget() compares: time, or way covered.
+  void insert(const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint, double now = 0.0);
 
   /// Fits the planes of all cells that changed since the last call.
   void refit();
@@ -60,8 +61,8 @@ class VoxelMap {
   const MapPlane* find(const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint,
                        int level) const;
 
-  /// Forgets cells farther than `radius_m` from `centre`.
-  void eraseBeyond(const Eigen::Vector3d& centre, double radius_m);
+  /// Forgets cells farther than `radius_m` from `centre`, and those last seen before `oldest`.
+  void forget(const Eigen::Vector3d& centre, double radius_m, double oldest);
 
   /// Every plane of a level, in an order that depends only on what was inserted.
   std::vector<MapPlane> planes(int level) const;

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/options.h"
+
+#include <charconv>
+#include <cstring>
+#include <locale>
+#include <map>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+namespace mrpt_sgraphs::sim {
+namespace {
+
+/// Values by option, with every option known and given once.
+class Arguments {
+ public:
+  Arguments(int argc, const char* const* argv) {
+    static const std::set<std::string> known{"--building", "--sensor",   "--seed", "--out",
+                                             "--gait",     "--duration", "--rate"};
+    for (int k = 1; k < argc; k += 2) {
+      const std::string option = argv[k];
+      if (known.count(option) == 0) throw std::invalid_argument("unknown option '" + option + "'");
+      if (k + 1 >= argc) throw std::invalid_argument(option + " needs a value");
+      if (!values_.emplace(option, argv[k + 1]).second) {
+        throw std::invalid_argument(option + " is given twice");
+      }
+    }
+  }
+
+  bool has(const std::string& option) const { return values_.count(option) > 0; }
+
+  std::string text(const std::string& option) const {
+    const auto found = values_.find(option);
+    if (found == values_.end()) throw std::invalid_argument(option + " is missing");
+    return found->second;
+  }
+
+  double positive(const std::string& option) const {
+    const std::string value = text(option);
+    std::istringstream stream(value);
+    stream.imbue(std::locale::classic());
+    double number = 0.0;
+    if (!(stream >> number) || stream.peek() != EOF || number <= 0.0) {
+      throw std::invalid_argument(option + " needs a positive number, not '" + value + "'");
+    }
+    return number;
+  }
+
+  uint64_t whole(const std::string& option) const {
+    const std::string value = text(option);
+    uint64_t number = 0;
+    const char* end = value.data() + value.size();
+    const auto result = std::from_chars(value.data(), end, number);
+    if (result.ec != std::errc{} || result.ptr != end) {
+      throw std::invalid_argument(option + " needs a whole number, not '" + value + "'");
+    }
+    return number;
+  }
+
+ private:
+  std::map<std::string, std::string> values_;
+};
+
+}  // namespace
+
+Options parseOptions(int argc, const char* const* argv) {
+  Options options;
+  for (int k = 1; k < argc; ++k) {
+    if (std::strcmp(argv[k], "--help") == 0 || std::strcmp(argv[k], "-h") == 0) {
+      options.help = true;
+      return options;
+    }
+  }
+  const Arguments arguments(argc, argv);
+  options.building_file = arguments.text("--building");
+  options.out_directory = arguments.text("--out");
+  options.simulation.lidar = lidarNamed(arguments.text("--sensor"));
+  options.simulation.seed = arguments.whole("--seed");
+  options.simulation.robot =
+      robotNamed(arguments.has("--gait") ? arguments.text("--gait") : "legged");
+  if (arguments.has("--duration")) {
+    options.simulation.max_duration_s = arguments.positive("--duration");
+  }
+  if (arguments.has("--rate")) {
+    options.simulation.lidar.rate_hz = arguments.positive("--rate");
+    constexpr double kFastest_hz = 100.0;  // no spinning lidar turns faster
+    if (options.simulation.lidar.rate_hz > kFastest_hz) {
+      throw std::invalid_argument("--rate must not be above 100");
+    }
+  }
+  return options;
+}
+
+std::string usage() {
+  std::string sensors;
+  for (const LidarModel& model : lidarModels()) sensors += " " + model.name;
+  return "Simulates a robot with a lidar that walks through a building.\n"
+         "\n"
+         "  sgraphs_simulate --building FILE --sensor NAME --seed N --out DIR [options]\n"
+         "\n"
+         "  --building FILE    the building and the tour of the robot (sim/buildings/*.yaml)\n"
+         "  --sensor NAME      one of" +
+         sensors +
+         "\n"
+         "  --seed N           of all noise; a whole number\n"
+         "  --out DIR          gets run.bag and truth/{trajectory.tum,base_trajectory.tum,\n"
+         "                     building.json}\n"
+         "  --gait NAME        legged (default) or wheeled\n"
+         "  --duration S       stops after S seconds, if the tour is longer\n"
+         "  --rate HZ          sweeps per second (default 10)\n"
+         "  --help             shows this\n"
+         "\n"
+         "The bag has /points, /imu, /odom and /tf_static. Equal arguments give equal output.\n";
+}
+
+}  // namespace mrpt_sgraphs::sim

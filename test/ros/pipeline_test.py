@@ -1,0 +1,163 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""A bag played through the nodelets comes out as map -> odom, trajectory, graph and files, and no
+cloud is copied on its way."""
+
+import os
+import re
+import sys
+import tempfile
+import unittest
+import xmlrpc.client
+
+import numpy as np
+import rosbag
+import rosgraph
+import rospy
+import tf2_ros
+from nav_msgs.msg import Path
+from rosgraph_msgs.msg import Log
+
+from mrpt_sgraphs.msg import GraphFactor, OptimizationReport, SituationalGraph
+from mrpt_sgraphs.srv import Dump, Optimize, SaveMap
+from ros_support import RosoutLog, wait_for
+
+FILES = ['trajectory.tum', 'odometry.tum', 'keyframes.tum', 'graph.json', 'graph.g2o', 'map.pcd',
+         'optimizations.csv', 'scans.csv', 'report.json']
+INSIDE_TOPICS = ['points_filtered', 'points_deskewed', 'keyframe_points', 'keyframe',
+                 'scan_odometry']
+
+
+def position(pose):
+    return np.array([pose.position.x, pose.position.y, pose.position.z])
+
+
+def truth_of(bag_path):
+    """{stamp in microseconds: position}"""
+    with rosbag.Bag(bag_path) as bag:
+        return {message.header.stamp.to_nsec() // 1000: position(message.pose.pose)
+                for _, message, _ in bag.read_messages(topics=['/truth'])}
+
+
+def aligned_error(estimate, truth):
+    """RMSE after the rigid motion that fits best (Umeyama without scale)."""
+    a = estimate - estimate.mean(axis=0)
+    b = truth - truth.mean(axis=0)
+    u, _, vt = np.linalg.svd(b.T @ a)
+    rotation = u @ np.diag([1.0, 1.0, np.linalg.det(u @ vt)]) @ vt
+    return np.sqrt(np.mean(np.sum((b - a @ rotation.T) ** 2, axis=1)))
+
+
+class PipelineTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.truth = truth_of(rospy.get_param('~bag'))
+        cls.latest = {}
+        cls.diagnostics = b''
+        cls.log = RosoutLog()
+        cls.tf_buffer = tf2_ros.Buffer()
+        cls.tf_listener = tf2_ros.TransformListener(cls.tf_buffer)
+        cls.subscribers = [
+            rospy.Subscriber('/sgraphs/' + name, kind,
+                             lambda message, key=name: cls.latest.update({key: message}))
+            for name, kind in [('trajectory', Path), ('graph', SituationalGraph),
+                               ('optimization', OptimizationReport)]]
+        cls.subscribers.append(rospy.Subscriber('/diagnostics', rospy.AnyMsg, cls.on_diagnostics))
+        wait_for(lambda: len(cls.poses()) >= len(cls.truth), timeout_s=30.0)
+
+    @classmethod
+    def on_diagnostics(cls, message):  # its Python type is not packaged everywhere
+        cls.diagnostics += message._buff
+
+    @classmethod
+    def poses(cls):
+        return cls.latest['trajectory'].poses if 'trajectory' in cls.latest else []
+
+    def test_every_scan_has_a_pose_and_the_trajectory_is_the_true_one(self):
+        poses = {line.header.stamp.to_nsec() // 1000: position(line.pose) for line in self.poses()}
+        self.assertEqual(sorted(poses), sorted(self.truth))
+        stamps = sorted(poses)
+        error = aligned_error(np.array([poses[s] for s in stamps]),
+                              np.array([self.truth[s] for s in stamps]))
+        self.assertLess(error, 0.03)
+
+    def test_tf_leads_from_map_to_the_robot(self):
+        for target, source in [('map', 'odom'), ('odom', 'base_link'), ('map', 'base_link')]:
+            self.assertTrue(wait_for(
+                lambda: self.tf_buffer.can_transform(target, source, rospy.Time(0)), 5.0),
+                '%s to %s' % (target, source))
+
+    def test_graph_has_keyframes_in_a_chain(self):
+        graph = self.latest['graph']
+        self.assertEqual(graph.header.frame_id, 'map')
+        self.assertGreater(len(graph.keyframes), 8)
+        chain = [factor for factor in graph.factors if factor.type == 'odometry']
+        self.assertEqual(len(chain), len(graph.keyframes) - 1)
+        ids = {keyframe.id for keyframe in graph.keyframes}
+        for factor in graph.factors:
+            self.assertEqual(list(bytearray(factor.layers)), [GraphFactor.KEYFRAME] * 2)
+            self.assertLessEqual(set(factor.nodes), ids)
+
+    def test_dump_writes_every_file_and_every_scan(self):
+        folder = os.path.join(tempfile.mkdtemp(), 'run')
+        answer = rospy.ServiceProxy('/sgraphs/dump', Dump)(folder)
+        self.assertTrue(answer.success, answer.message)
+        for name in FILES:
+            self.assertIn(name, answer.message)
+            self.assertGreater(os.path.getsize(os.path.join(folder, name)), 0, name)
+        with open(os.path.join(folder, 'trajectory.tum')) as lines:
+            self.assertEqual(len(list(lines)), len(self.truth))
+
+    def test_dump_says_why_it_cannot_write(self):
+        answer = rospy.ServiceProxy('/sgraphs/dump', Dump)('/proc/nowhere')
+        self.assertFalse(answer.success)
+        self.assertIn('/proc/nowhere', answer.message)
+
+    def test_save_map_writes_a_binary_pcd(self):
+        path = os.path.join(tempfile.mkdtemp(), 'map.pcd')
+        answer = rospy.ServiceProxy('/sgraphs/save_map', SaveMap)(path, 0.1)
+        self.assertTrue(answer.success, answer.message)
+        with open(path, 'rb') as pcd:
+            header = pcd.read(2000)
+        self.assertIn(b'DATA binary\n', header)
+        self.assertRegex(header, rb'FIELDS x y z')
+
+    def test_optimize_reports_what_it_did(self):
+        answer = rospy.ServiceProxy('/sgraphs/optimize', Optimize)()
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.report.keyframes_active, len(self.latest['graph'].keyframes))
+        self.assertTrue(wait_for(lambda: 'optimization' in self.latest, 5.0))
+
+    def test_diagnostics_name_the_nodelets(self):
+        for name in [b'sgraphs/prefilter', b'sgraphs/odometry', b'sgraphs/graph_slam']:
+            self.assertIn(name, self.diagnostics)
+
+    def test_a_cloud_keeps_its_address_from_publisher_to_subscriber(self):
+        trace = {}
+        for text in self.log.texts(Log.DEBUG):
+            match = re.fullmatch(r'(publish|receive) (\w+) (0x[0-9a-f]+)', text)
+            if match:
+                what, topic, address = match.groups()
+                trace.setdefault((what, topic), []).append(address)
+        for topic, at_least in [('points_filtered', 100), ('points_deskewed', 100),
+                                ('keyframe_points', 5)]:
+            published = trace.get(('publish', topic), [])
+            self.assertGreater(len(published), at_least, topic)
+            self.assertEqual(published, trace.get(('receive', topic)), topic)
+
+    def test_nothing_is_serialized_inside_the_manager(self):
+        master = rosgraph.Master(rospy.get_name())
+        manager = xmlrpc.client.ServerProxy(master.lookupNode('/sgraphs/manager'))
+        published, _ = manager.getBusStats(rospy.get_name())  # roscpp leaves out code and message
+        sent = {topic: sum(connection[1] for connection in connections)
+                for topic, connections in published}
+        self.assertGreater(sent['/sgraphs/graph'], 0, 'the meter works: this one goes outside')
+        for topic in INSIDE_TOPICS:
+            self.assertEqual(sent['/sgraphs/' + topic], 0, topic)
+
+
+if __name__ == '__main__':
+    import rostest
+    rospy.init_node('pipeline_test')
+    rostest.rosrun('mrpt_sgraphs', 'pipeline_test', PipelineTest, sys.argv)
