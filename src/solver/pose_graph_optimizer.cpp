@@ -47,8 +47,10 @@ class Problem {
   /// Lower triangle of J'WJ, and J'We.
   void linearize(Eigen::SparseMatrix<double>* h, Eigen::VectorXd* g) const {
     std::vector<Eigen::Triplet<double>> triplets;
-    triplets.reserve(edges_.size() * 120);
+    triplets.reserve(edges_.size() * 120 + static_cast<std::size_t>(dimension()));
     g->setZero(dimension());
+    // every diagonal entry exists, also of a pose that no edge reaches: damping writes to them
+    for (int k = 0; k < dimension(); ++k) triplets.emplace_back(k, k, 0.0);
     for (std::size_t k = 0; k < edges_.size(); ++k) {
       const RelativePoseEdge& edge = edges_[k];
       const auto [from, to] = ends_[k];
