@@ -46,6 +46,10 @@ constexpr double kMaxSearch_rad = 0.8;
 constexpr std::size_t kSearchPoints = 600;
 /// The distance at which an error in heading is weighed against one in position.
 constexpr double kReach_m = 5.0;
+/// Fewer of the points that have a plane lie on it than this, and the place is the wrong one.
+constexpr double kMinConsistency = 0.5;
+/// While lost the prediction slows down by this from scan to scan, so that it does not run away.
+constexpr double kLostSlowdown = 0.7;
 /// Scans that always go into the map: it starts empty.
 constexpr int kFirstScans = 10;
 /// Later ones only if the robot moved so far since the last that did: standing still would fill the
@@ -354,10 +358,11 @@ std::optional<OdometryResult> Odometry::process(const Cloud& scan) {
     const RegistrationResult fit = placeScan(points, prior, viewpoint);
     result.register_ms = watch.lap();
 
-    result.registered = fit.matched > 0 && fit.inlier_ratio >= kMinInlierRatio;
+    result.registered = fit.matched > 0 && fit.inlier_ratio >= kMinInlierRatio &&
+                        fit.consistency >= kMinConsistency;
     const MovingPose& pose = result.registered ? fit.estimate : prior.mean;
     result.T_odom_base = pose.T_map_base;
-    result.velocity_base = pose.velocity_base;
+    result.velocity_base = (result.registered ? 1.0 : kLostSlowdown) * pose.velocity_base;
     result.degenerate_directions = result.registered ? fit.degenerate_directions : 6;
     result.inlier_ratio = fit.inlier_ratio;
     result.iterations = fit.iterations;

@@ -207,6 +207,9 @@ RegistrationResult registerScan(const std::vector<ScanPoint>& points, const Voxe
   }
   result.inlier_ratio =
       points.empty() ? 0.0 : static_cast<double>(result.matched) / static_cast<double>(points.size());
+  result.consistency = matches.empty() ? 0.0
+                                       : static_cast<double>(result.matched) /
+                                             static_cast<double>(matches.size());
   result.rms_m = result.matched > 0 ? std::sqrt(sum / result.matched) : 0.0;
   result.converged = result.converged && result.matched >= kMinMatches;
   return result;

@@ -59,6 +59,9 @@ struct RegistrationResult {
   int degenerate_directions = 0;
   int matched = 0;           ///< Points that have a plane and lie on it.
   double inlier_ratio = 0.0; ///< matched / all
+  /// matched / those that have a plane at all: near 1 in the right place, whatever part of the scan
+  /// is of new surroundings.
+  double consistency = 0.0;
   double rms_m = 0.0;        ///< Of the matched points' distances.
   int iterations = 0;
   bool converged = false;
