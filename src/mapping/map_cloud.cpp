@@ -10,11 +10,12 @@ namespace mrpt_sgraphs {
 Cloud::Ptr mapCloud(const GraphSnapshot& graph, double resolution_m) {
   Cloud::Ptr map(new Cloud);
   map->header.stamp = toPclStamp(graph.stamp_s);
-  VoxelSet voxels(resolution_m);
+  const bool thin = resolution_m > 0.0;
+  VoxelSet voxels(thin ? resolution_m : 1.0);
   for (const KeyframeNode& keyframe : graph.keyframes) {
     for (const Point& point : *keyframe.cloud) {
       const Eigen::Vector3d p = keyframe.T_map_base * point.getVector3fMap().cast<double>();
-      if (!voxels.insert(p.cast<float>())) continue;
+      if (thin && !voxels.insert(p.cast<float>())) continue;
       Point placed = point;
       placed.getVector3fMap() = p.cast<float>();
       placed.time = 0.0F;

@@ -9,20 +9,40 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <deque>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
 #include <stdexcept>
+#include <utility>
+
+#include "ros_config.h"
 
 namespace mrpt_sgraphs {
 namespace {
 
+/// What every bag begins with, whatever became of the rest of it.
+bool beginsAsBag(const std::string& file) {
+  std::string magic(std::strlen("#ROSBAG V2.0"), '\0');
+  std::ifstream stream(file, std::ios::binary);
+  return stream.read(magic.data(), static_cast<std::streamsize>(magic.size())) &&
+         magic == "#ROSBAG V2.0";
+}
+
 void open(const std::string& file, rosbag::Bag* bag) {
+  const std::string failed = "cannot read '" + file + "': ";
+  if (std::filesystem::is_directory(file)) throw std::runtime_error(failed + "it is a folder");
+  if (!std::ifstream(file)) throw std::runtime_error(failed + std::strerror(errno));
+  if (!beginsAsBag(file)) throw std::runtime_error(failed + "it is no bag of version 2.0");
   try {
     bag->open(file, rosbag::bagmode::Read);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw std::runtime_error("'" + file + "' was cut short while it was recorded: mend it with " +
-                             "'rosbag reindex " + file + "'");
-  } catch (const rosbag::BagException& e) {
-    throw std::runtime_error("cannot read '" + file + "': " + e.what());
+  } catch (const std::exception& e) {  // rosbag's, or of what it asks for when lengths lie
+    throw std::runtime_error(failed + "it was cut short or its index is damaged (" + e.what() +
+                             "); 'rosbag reindex " + file + "' mends what is left of it");
   }
 }
 
@@ -31,34 +51,98 @@ void open(const std::string& file, rosbag::Bag* bag) {
 struct BagSource::Bags {
   BagRequest request;
   std::deque<rosbag::Bag> open_bags;  // a bag does not move
+  std::map<const ros::M_string*, std::string> file_of_connection;
   rosbag::View all;
   tf2::BufferCore transforms;
+  std::set<std::string> frames_with_parent;
+  std::set<std::string> transform_topics_read;
   std::string points_frame;
   ros::Time end;
+  /// By time and topic, so that none counts twice; with the reason.
+  std::map<std::pair<ros::Time, std::string>, std::string> unreadable;
 
-  void checkTopic(const std::string& topic, const std::string& type) {
-    std::string others;
+  void add(const std::string& file) {
+    open_bags.emplace_back();
+    open(file, &open_bags.back());
+    all.addQuery(open_bags.back());
+    rosbag::View view(open_bags.back());
+    for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+      file_of_connection[connection->header.get()] = file;
+    }
+  }
+
+  template <typename Message>
+  void checkTopic(const std::string& topic) {
+    const std::string type = ros::message_traits::datatype<Message>();
+    std::set<std::string> others;
+    bool found = false;
     for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
-      if (connection->topic == topic) {
-        if (connection->datatype == type) return;
+      others.insert("\n  " + connection->topic + " (" + connection->datatype + ")");
+      if (connection->topic != topic) continue;
+      found = true;
+      if (connection->datatype != type) {
         throw std::runtime_error("topic '" + topic + "' has type " + connection->datatype +
                                  ", expected " + type);
       }
-      others += "\n  " + connection->topic + " (" + connection->datatype + ")";
+      if (connection->md5sum != ros::message_traits::md5sum<Message>()) {
+        throw std::runtime_error("topic '" + topic + "' was recorded with another definition of " +
+                                 type);
+      }
     }
-    throw std::runtime_error("no topic '" + topic + "' of type " + type + " in the bag; it has:" +
-                             (others.empty() ? " nothing" : others));
+    if (found) return;
+    std::string list;
+    for (const std::string& other : others) list += other;
+    throw std::runtime_error("no topic '" + topic + "' of type " + type + " in the bag; it has" +
+                             (list.empty() ? " none" : ":" + list));
   }
 
+  /// Nothing for a message that is damaged.
+  template <typename Message>
+  boost::shared_ptr<Message> read(const rosbag::MessageInstance& message) {
+    try {
+      return message.instantiate<Message>();
+    } catch (const std::exception& e) {  // rosbag's, the serializer's, or a length that lies
+      unreadable.emplace(std::make_pair(message.getTime(), message.getTopic()),
+                         "'" + file_of_connection[message.getConnectionHeader().get()] +
+                             "' is damaged (" + e.what() + ")");
+      return nullptr;
+    }
+  }
+
+  std::string damage() const {
+    if (unreadable.empty()) return {};
+    const auto& [message, reason] = *unreadable.begin();
+    return reason + "; messages lost: " + std::to_string(unreadable.size()) + ", the first on '" +
+           message.second + "' at " + std::to_string(message.first.toSec());
+  }
+
+  std::string firstPointsFrame() {
+    for (rosbag::Bag& bag : open_bags) {
+      rosbag::View view(bag, rosbag::TopicQuery(request.points_topic));
+      for (const rosbag::MessageInstance& message : view) {
+        const auto cloud = read<sensor_msgs::PointCloud2>(message);
+        if (cloud != nullptr && !cloud->header.frame_id.empty()) {
+          return frameName(cloud->header.frame_id);
+        }
+      }
+    }
+    return {};
+  }
+
+  /// Each topic once, when it is needed: /tf is all over a bag.
   void readTransforms(const std::string& topic, bool only_first) {
+    if (!transform_topics_read.insert(topic).second) return;
     for (rosbag::Bag& bag : open_bags) {
       rosbag::View view(bag, rosbag::TopicQuery(topic));
       for (const rosbag::MessageInstance& message : view) {
-        const auto tf = message.instantiate<tf2_msgs::TFMessage>();
+        const auto tf = read<tf2_msgs::TFMessage>(message);
         if (tf == nullptr) continue;
         for (geometry_msgs::TransformStamped transform : tf->transforms) {
-          if (only_first && transforms._frameExists(transform.child_frame_id)) continue;
-          transforms.setTransform(transform, "bag", true);
+          transform.header.frame_id = frameName(transform.header.frame_id);
+          transform.child_frame_id = frameName(transform.child_frame_id);
+          if (only_first && frames_with_parent.count(transform.child_frame_id) > 0) continue;
+          if (!transforms.setTransform(transform, "bag", true)) continue;
+          frames_with_parent.insert(transform.child_frame_id);
         }
       }
     }
@@ -67,34 +151,21 @@ struct BagSource::Bags {
 
 BagSource::BagSource(const BagRequest& request) : bags_(std::make_unique<Bags>()) {
   bags_->request = request;
-  for (const std::string& file : request.files) {
-    bags_->open_bags.emplace_back();
-    open(file, &bags_->open_bags.back());
-    bags_->all.addQuery(bags_->open_bags.back());
-  }
-  bags_->checkTopic(request.points_topic, "sensor_msgs/PointCloud2");
-  if (!request.odom_topic.empty()) bags_->checkTopic(request.odom_topic, "nav_msgs/Odometry");
-  if (!request.imu_topic.empty()) bags_->checkTopic(request.imu_topic, "sensor_msgs/Imu");
+  for (const std::string& file : request.files) bags_->add(file);
+  bags_->checkTopic<sensor_msgs::PointCloud2>(request.points_topic);
+  if (!request.odom_topic.empty()) bags_->checkTopic<nav_msgs::Odometry>(request.odom_topic);
+  if (!request.imu_topic.empty()) bags_->checkTopic<sensor_msgs::Imu>(request.imu_topic);
 
   bags_->end = bags_->all.getEndTime();
-  if (request.duration_s > 0.0) {
-    bags_->end =
-        std::min(bags_->end, bags_->all.getBeginTime() + ros::Duration(request.duration_s));
+  if (request.duration_s > 0.0 && request.duration_s < duration()) {
+    bags_->end = bags_->all.getBeginTime() + ros::Duration(request.duration_s);
   }
-  for (rosbag::Bag& bag : bags_->open_bags) {
-    rosbag::View view(bag, rosbag::TopicQuery(request.points_topic));
-    for (const rosbag::MessageInstance& message : view) {
-      const auto cloud = message.instantiate<sensor_msgs::PointCloud2>();
-      if (cloud != nullptr) bags_->points_frame = cloud->header.frame_id;
-      break;
-    }
-    if (!bags_->points_frame.empty()) break;
-  }
+  bags_->points_frame = bags_->firstPointsFrame();
 }
 
 BagSource::~BagSource() = default;
 
-void BagSource::play(const BagHandlers& handlers) {
+std::string BagSource::play(const BagHandlers& handlers) {
   const BagRequest& request = bags_->request;
   std::vector<std::string> topics{request.points_topic};
   if (!request.odom_topic.empty()) topics.push_back(request.odom_topic);
@@ -105,36 +176,36 @@ void BagSource::play(const BagHandlers& handlers) {
     view.addQuery(bag, rosbag::TopicQuery(topics), bags_->all.getBeginTime(), bags_->end);
   }
   const double span_s = std::max(1e-9, duration());
-  try {
-    for (const rosbag::MessageInstance& message : view) {
-      const std::string& topic = message.getTopic();
-      if (topic == request.points_topic) {
-        if (const auto cloud = message.instantiate<sensor_msgs::PointCloud2>()) {
-          handlers.points(cloud);
-          handlers.progress((message.getTime() - bags_->all.getBeginTime()).toSec() / span_s);
-        }
-      } else if (topic == request.odom_topic) {
-        if (const auto odom = message.instantiate<nav_msgs::Odometry>()) handlers.odom(odom);
-      } else if (const auto imu = message.instantiate<sensor_msgs::Imu>()) {
-        handlers.imu(imu);
+  for (const rosbag::MessageInstance& message : view) {
+    const std::string& topic = message.getTopic();
+    if (topic == request.points_topic) {
+      if (const auto cloud = bags_->read<sensor_msgs::PointCloud2>(message)) {
+        handlers.points(cloud);
+        handlers.progress((message.getTime() - bags_->all.getBeginTime()).toSec() / span_s);
       }
+    } else if (topic == request.odom_topic) {
+      if (const auto odom = bags_->read<nav_msgs::Odometry>(message)) handlers.odom(odom);
+    } else if (const auto imu = bags_->read<sensor_msgs::Imu>(message)) {
+      handlers.imu(imu);
     }
-  } catch (const ros::Exception& e) {
-    throw std::runtime_error("the bag is damaged: " + std::string(e.what()));
   }
+  return bags_->damage();
 }
 
 Pose BagSource::transform(const std::string& parent, const std::string& child) const {
-  if (parent == child) return Pose::Identity();
+  const std::string to = frameName(parent);
+  const std::string from = frameName(child);
+  if (to == from) return Pose::Identity();
   for (const char* topic : {"/tf_static", "/tf"}) {
     bags_->readTransforms(topic, std::string(topic) == "/tf");
-    if (!bags_->transforms.canTransform(parent, child, ros::Time(0))) continue;
-    return tf2::transformToEigen(bags_->transforms.lookupTransform(parent, child, ros::Time(0)));
+    if (!bags_->transforms.canTransform(to, from, ros::Time(0))) continue;
+    return tf2::transformToEigen(bags_->transforms.lookupTransform(to, from, ros::Time(0)));
   }
   const std::string frames = bags_->transforms.allFramesAsString();
-  throw std::runtime_error("no transform between '" + parent + "' and '" + child +
+  throw std::runtime_error("no transform between '" + to + "' and '" + from +
                            "' in the bag's /tf_static or /tf" +
-                           (frames.empty() ? "; it has none" : "; it has:\n" + frames));
+                           (frames.empty() ? "; it has none" : "; it has:\n" + frames) +
+                           (bags_->unreadable.empty() ? "" : "\n" + bags_->damage()));
 }
 
 std::string BagSource::pointsFrame() const { return bags_->points_frame; }

@@ -92,7 +92,6 @@ class GraphSlamNodelet final : public PipelineNodelet {
   }
 
   void onKeyframe(const KeyframeStampedConstPtr& msg) {
-    if (!isOfThisSession(msg->session)) return;
     add(matcher_.addFirst(pcl_conversions::toPCL(msg->header.stamp), msg));
   }
 
@@ -102,7 +101,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
   }
 
   void add(const std::optional<Matcher::Pair>& pair) {
-    if (!pair) return;
+    if (!pair || !isOfThisSession(pair->first->session)) return;
     auto keyframe = toKeyframe(*pair->first);
     if (!keyframe) return;
     keyframe->cloud = pcl::pcl_ptr(pair->second);
@@ -113,7 +112,6 @@ class GraphSlamNodelet final : public PipelineNodelet {
   bool isOfThisSession(std::uint32_t session) {
     if (session > session_) {
       session_ = session;
-      matcher_.clear();
       slam_->startAgain(rescueFolder(last_stamp_s_));
     }
     return session == session_;

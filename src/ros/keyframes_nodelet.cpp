@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_ros/point_cloud.h>
 
+#include <boost/make_shared.hpp>
 #include <optional>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -37,7 +38,6 @@ class KeyframesNodelet final : public PipelineNodelet {
   void onScan(const ScanOdometryConstPtr& msg) {
     if (msg->session != session_) {
       session_ = msg->session;
-      matcher_.clear();
       selector_->reset();
     }
     process(matcher_.addFirst(pcl_conversions::toPCL(msg->header.stamp), msg));
@@ -52,13 +52,14 @@ class KeyframesNodelet final : public PipelineNodelet {
     if (!scan) return;
     const ScanOdometry& odometry = *scan->first;
     const auto motion = toScanMotion(odometry);
-    if (!motion) return;
+    if (!motion || odometry.session != session_) return;
     const auto keyframe = selector_->process(*motion, *scan->second);
     if (!keyframe) return;
 
-    KeyframeStamped msg = toMsg(*keyframe, odometry.header, odometry.child_frame_id);
-    msg.session = session_;
-    keyframe_pub_.publish(msg);
+    const auto msg = boost::make_shared<KeyframeStamped>(
+        toMsg(*keyframe, odometry.header, odometry.child_frame_id));
+    msg->session = session_;
+    keyframe_pub_.publish(msg);  // as a pointer, or it is serialized
     traceCloud("publish", "keyframe_points", keyframe->cloud.get());
     cloud_pub_.publish(pcl::ros_ptr(keyframe->cloud));
   }

@@ -4,6 +4,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <algorithm>
+#include <boost/make_shared.hpp>
 #include <memory>
 #include <optional>
 #include <pluginlib/class_list_macros.hpp>
@@ -122,9 +123,9 @@ class OdometryNodelet final : public PipelineNodelet {
     }
     odom_pub_.publish(toOdometry(result, header, base_frame, dt_s));
     broadcaster_.sendTransform(toMsg(result.T_odom_base, header.stamp, odom_frame_, base_frame));
-    ScanOdometry scan = toScanOdometry(result, header, base_frame);
-    scan.session = session_;
-    scan_pub_.publish(scan);
+    const auto scan = boost::make_shared<ScanOdometry>(toScanOdometry(result, header, base_frame));
+    scan->session = session_;
+    scan_pub_.publish(scan);  // as a pointer, or it is serialized and comes after the cloud
     traceCloud("publish", "points_deskewed", result.deskewed.get());
     cloud_pub_.publish(pcl::ros_ptr(result.deskewed));
   }

@@ -31,11 +31,6 @@ class StampMatcher {
     return std::nullopt;
   }
 
-  void clear() {
-    firsts_.clear();
-    seconds_.clear();
-  }
-
  private:
   static constexpr std::size_t kMemory = 100;  ///< Ten seconds of a 10 Hz lidar.
 

@@ -61,7 +61,9 @@ class SectionReader {
 };
 
 /// Sections that only the nodelets have.
-bool isForRosAlone(const std::string& section) { return section == "frames"; }
+bool isForRosAlone(const std::string& section) {
+  return section == "frames" || section == "inputs";
+}
 
 }  // namespace
 

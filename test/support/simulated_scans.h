@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "../sim/sim_support.h"
 #include "mrpt_sgraphs/frontend/motion_buffers.h"
 #include "mrpt_sgraphs/frontend/point_cloud.h"
 #include "mrpt_sgraphs/frontend/raw_cloud.h"
 #include "mrpt_sgraphs/io/tum.h"
 #include "sim/point_encoding.h"
+#include "sim/sim_support.h"
 #include "sim/simulation.h"
 
 /// What the simulator measures, in the types of the pipeline and in memory: no bag, no ROS.

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "mrpt_sgraphs/frontend/motion_buffers.h"
+#include "mrpt_sgraphs/frontend/motion_model.h"
 #include "mrpt_sgraphs/frontend/point_cloud.h"
 #include "mrpt_sgraphs/frontend/registration.h"
+#include "mrpt_sgraphs/frontend/scan_matcher.h"
 #include "mrpt_sgraphs/frontend/voxel_map.h"
 #include "mrpt_sgraphs/geometry/pose.h"
 
@@ -17,32 +19,26 @@ namespace mrpt_sgraphs {
 
 /// How a scan is placed. The defaults suit 16 to 128 beams carried by a walking robot indoors.
 struct OdometryConfig {
+  MotionModelConfig motion;
   VoxelMapConfig map;
   RegistrationConfig registration;
-  double max_acceleration_m_s2 = 3.0;        ///< How wrong a constant velocity may be.
-  double max_angular_acceleration_rad_s2 = 8.0;  ///< The same for turning.
   double local_map_radius_m = 60.0;          ///< What is farther from the robot is forgotten,
   /// and what was last seen so long a way ago: coming back to it is a loop for the graph to close,
   /// not a jump for the odometry to make.
   double local_map_way_m = 30.0;
   int registration_points = 2500;            ///< Points of a scan that are registered.
   int map_points = 12000;                    ///< Points of a scan that go into the local map.
-  double odom_in_sigma_m_per_m = 0.05;       ///< Error of the robot's odometry over a distance.
-  double odom_in_sigma_rad_per_m = 0.02;     ///< ... and of its heading.
   double max_gap_s = 3.0;                    ///< A longer pause tells nothing of the motion in it.
 
   template <typename Self, typename Field>
   static void fields(Self& self, Field&& field) {
+    MotionModelConfig::fields(self.motion, field);
     VoxelMapConfig::fields(self.map, field);
     RegistrationConfig::fields(self.registration, field);
-    field("max_acceleration_m_s2", self.max_acceleration_m_s2, 0.1, 100.0);
-    field("max_angular_acceleration_rad_s2", self.max_angular_acceleration_rad_s2, 0.1, 1000.0);
     field("local_map_radius_m", self.local_map_radius_m, 5.0, 1000.0);
     field("local_map_way_m", self.local_map_way_m, 1.0, 1e6);
     field("registration_points", self.registration_points, 100, 100000);
     field("map_points", self.map_points, 100, 1000000);
-    field("odom_in_sigma_m_per_m", self.odom_in_sigma_m_per_m, 1e-4, 1.0);
-    field("odom_in_sigma_rad_per_m", self.odom_in_sigma_rad_per_m, 1e-4, 1.0);
     field("max_gap_s", self.max_gap_s, 0.1, 100.0);
   }
 };
@@ -87,27 +83,16 @@ class Odometry {
   void reset();
 
  private:
-  /// @param has_gyro  The turning within the scan is known: only its error is left to estimate.
-  MotionPrior predict(double stamp_s, bool has_gyro) const;
-  /// @param T_last_now  The motion since the last scan, as the robot's odometry has it.
-  void fuseOdomIn(const Pose& T_last_now, MotionPrior* prior) const;
-  /// Where a coarse search about the prior's mean fits best.
-  MovingPose bestStart(const std::vector<ScanPoint>& points, const MotionPrior& prior,
-                       const Eigen::Vector3d& viewpoint_base) const;
-  RegistrationResult placeScan(const std::vector<ScanPoint>& points, const MotionPrior& prior,
-                               const Eigen::Vector3d& viewpoint_base);
-  void start(const Cloud& scan, OdometryResult* result);
+  OdometryResult start(const Cloud& scan);
+  OdometryResult follow(const Cloud& scan);
   void placeInMap(const Cloud& deskewed, const Pose& T_odom_base);
 
   OdometryConfig config_;
   VoxelMap map_;
+  ScanMatcher matcher_;
   ImuBuffer imu_;
   OdomBuffer odom_in_;
-  std::optional<OdometryResult> last_;  ///< Without its cloud.
-  Matrix12 last_covariance_ = Matrix12::Zero();  ///< Of its pose and velocity.
-  double last_sweep_end_s_ = 0.0;
-  bool last_had_times_ = false;
-  double usual_inlier_ratio_ = 0.5;
+  std::optional<MotionState> last_;  ///< Nothing before the first scan.
   std::optional<Pose> last_in_map_;  ///< T_odom_base of the last scan that went into the map.
   int scans_in_map_ = 0;
   double way_m_ = 0.0;        ///< Covered so far.

@@ -7,7 +7,8 @@
 
 namespace mrpt_sgraphs {
 
-/// The clouds of all keyframes at their poses, one point a voxel, in `map`.
+/// The clouds of all keyframes at their poses, one point a voxel, in `map`. Every point
+/// for a resolution of zero or less.
 Cloud::Ptr mapCloud(const GraphSnapshot& graph, double resolution_m);
 
 }  // namespace mrpt_sgraphs

@@ -20,8 +20,8 @@ namespace mrpt_sgraphs {
 struct BagRequest {
   std::vector<std::string> files;
   std::string points_topic;
-  std::string odom_topic;  ///< Empty: none.
-  std::string imu_topic;   ///< Empty: none.
+  std::string odom_topic;   ///< Empty: none.
+  std::string imu_topic;    ///< Empty: none.
   double duration_s = 0.0;  ///< From the first message on; 0: all.
 };
 
@@ -33,24 +33,25 @@ struct BagHandlers {
   std::function<void(double done)> progress;  ///< 0 to 1, after each scan
 };
 
-/// Bags opened for reading. rosbag keeps to itself here: its headers do not mix with PCL's everywhere.
+/// Bags opened for reading. rosbag keeps to itself here: its headers do not mix with PCL's
+/// everywhere.
 class BagSource {
  public:
-  /// @throws std::runtime_error for a file that is missing, no bag or cut short, and for a topic that
-  ///         is not in any of them or has another type: it names what was found instead.
+  /// @throws std::runtime_error for a file that is missing, no bag or cut short, and for a topic
+  ///         that is not in any of them or has another type: it names what was found instead.
   explicit BagSource(const BagRequest& request);
   ~BagSource();
 
-  /// Hands over every message.
-  /// @throws std::runtime_error where a bag is damaged, with its name; what came before has been
-  ///         handed over.
-  void play(const BagHandlers& handlers);
+  /// Hands over every message that can be read. A damaged chunk takes its own messages with it, not
+  /// those after it.
+  /// @return What could not be read: file, number and first message. Empty if all could.
+  std::string play(const BagHandlers& handlers);
 
   /// T_parent_child from the bags' /tf_static and, should that not do, the first of each in /tf.
   /// @throws std::runtime_error naming the frames that there are if the two are not connected.
   Pose transform(const std::string& parent, const std::string& child) const;
 
-  /// Of the first message on the points' topic.
+  /// Of the first cloud that names one.
   std::string pointsFrame() const;
 
   /// Time that the messages cover.
