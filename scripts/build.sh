@@ -34,7 +34,13 @@ job_count() {
   [ "$cores" -lt "$by_memory" ] && echo "$cores" || echo "$by_memory"
 }
 
+# rosrun finds nothing in a package's own build/, so what is to be run lies beside it.
+[ -L build/devel ] || rm -rf build/devel
+mkdir -p build devel
+ln -sfn ../devel build/devel
+
 options=(-DCMAKE_BUILD_TYPE=Release -DPYTHON_EXECUTABLE=/usr/bin/python3)
+options+=(-DCATKIN_DEVEL_PREFIX="$PWD/devel")
 if command -v ccache > /dev/null; then
   options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 fi

@@ -16,7 +16,7 @@ check_core_is_free_of_ros() {
   ros+='|dynamic_reconfigure|diagnostic_updater|tf2[a-z_]*|pcl_ros|pcl_conversions|[a-z0-9_]+_msgs'
   ros+='|std_srvs|mrpt/ros1bridge|mrpt_sgraphs/ros|mrpt_sgraphs/rviz)/'
   local generated='mrpt_sgraphs/[A-Z]'  # our messages and services
-  local allowed='^(src|include/mrpt_sgraphs|test)/(ros|rviz)/|^apps/'
+  local allowed='^(src|include/mrpt_sgraphs|test)/(ros|rviz)/|^(test/)?apps/'
   local found
   found=$(grep -rnE "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]($ros|$generated)" \
     --include='*.h' --include='*.hpp' --include='*.cpp' include src sim test apps |
