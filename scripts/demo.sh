@@ -43,10 +43,11 @@ export ROS_MASTER_URI="http://localhost:$port"
 export ROS_HOSTNAME=localhost
 export ROS_HOME="$out/ros_home"
 log=$out/launch.log
+: > "$log"
 screen_pid=
 if [ -z "${DISPLAY:-}" ]; then
   number_file=$out/display
-  Xvfb -displayfd 3 -screen 0 1400x900x24 +extension GLX 3> "$number_file" 2> "$out/xvfb.log" &
+  Xvfb -displayfd 3 -screen 0 1280x800x24 +extension GLX 3> "$number_file" 2> "$out/xvfb.log" &
   screen_pid=$!
   for _ in $(seq 50); do [ -s "$number_file" ] && break; sleep 0.1; done
   DISPLAY=":$(cat "$number_file")"
