@@ -35,27 +35,35 @@ struct Options {
 std::optional<Options> parse(int argc, char** argv) {
   Options options;
   po::options_description description(
-      "Runs bags through the pipeline, as fast as the machine allows, and writes what comes out.\n\n"
-      "  sgraphs_offline --bag FILE [--bag FILE ...] --points TOPIC --out DIR [options]\n\nOptions");
-  description.add_options()  //
-      ("bag", po::value(&options.bags.files)->required(), "a bag; several are played by time")  //
-      ("points", po::value(&options.bags.points_topic)->required(),
-       "topic of the LiDAR, sensor_msgs/PointCloud2")  //
-      ("odom", po::value(&options.bags.odom_topic),
-       "topic of the robot's odometry, nav_msgs/Odometry")  //
-      ("imu", po::value(&options.bags.imu_topic), "topic of the IMU, sensor_msgs/Imu")  //
-      ("out", po::value(&options.out)->required(), "folder for the results")  //
-      ("params", po::value(&options.params), "parameter file, see config/default.yaml")  //
-      ("base-frame", po::value(&options.base_frame),
-       "frame whose trajectory is wanted (default: that of the clouds)")  //
-      ("duration", po::value(&options.bags.duration_s), "stop after so many seconds of the bag")  //
-      ("quiet", po::bool_switch(&options.quiet), "no progress bar, no warnings of single scans")  //
-      ("help,h", "shows this");
+      "Runs bags through the pipeline, as fast as the machine allows, and writes what comes out.\n"
+      "\n"
+      "  sgraphs_offline --bag FILE [--bag FILE ...] --points TOPIC --out DIR [options]\n"
+      "\n"
+      "Options");
+  auto add = description.add_options();
+  add("bag", po::value(&options.bags.files)->required(), "a bag; several are played by time");
+  add("points", po::value(&options.bags.points_topic)->required(),
+      "topic of the LiDAR, sensor_msgs/PointCloud2");
+  add("odom", po::value(&options.bags.odom_topic),
+      "topic of the robot's odometry, nav_msgs/Odometry");
+  add("imu", po::value(&options.bags.imu_topic), "topic of the IMU, sensor_msgs/Imu");
+  add("out", po::value(&options.out)->required(), "folder for the results");
+  add("params", po::value(&options.params), "parameter file, see config/default.yaml");
+  add("base-frame", po::value(&options.base_frame),
+      "frame whose trajectory is wanted (default: that of the clouds)");
+  add("duration", po::value(&options.bags.duration_s), "stop after so many seconds of the bag");
+  add("quiet", po::bool_switch(&options.quiet), "no progress bar, no warnings of single scans");
+  add("help,h", "shows this");
+
+  const po::parsed_options parsed = po::parse_command_line(
+      argc, argv, description,
+      po::command_line_style::unix_style & ~po::command_line_style::allow_guessing);
+  for (const auto& option : parsed.options) {
+    if (option.position_key < 0) continue;  // boost would pass over it in silence
+    throw po::error("'" + option.value.front() + "' belongs to no option");
+  }
   po::variables_map values;
-  po::store(po::parse_command_line(argc, argv, description,
-                                   po::command_line_style::unix_style &
-                                       ~po::command_line_style::allow_guessing),
-            values);
+  po::store(parsed, values);
   if (values.count("help") > 0) {
     std::cout << description;
     return std::nullopt;
@@ -92,9 +100,9 @@ void run(const Options& options) {
   std::printf("%zu scans, %zu keyframes, %.1f s of data in %.1f s: %s\n", record.scans.size(),
               record.graph->keyframes.size(), record.data_s, record.wall_s, options.out.c_str());
   if (remarks.count() > 0) {
-    std::fprintf(stderr, "%zu messages were remarked on; %zu of %zu scans on '%s' were left out\n",
-                 remarks.count(), player.clouds() - pipeline.scans(), player.clouds(),
-                 options.bags.points_topic.c_str());
+    std::fprintf(stderr, "messages remarked on: %zu; scans on '%s' left out: %zu of %zu\n",
+                 remarks.count(), options.bags.points_topic.c_str(),
+                 player.clouds() - pipeline.scans(), player.clouds());
   }
   if (!damage.empty()) throw std::runtime_error(damage + "; what could be read is written");
 }

@@ -24,6 +24,8 @@ struct ProgramResult {
   bool says(const std::string& text) const { return err.find(text) != std::string::npos; }
 };
 
+constexpr int kNoSuchProgram = 127;  ///< As shells have it.
+
 using Arguments = std::vector<std::string>;
 
 /// Runs a program to its end; one that hangs is ended by SIGALRM.
@@ -47,7 +49,7 @@ inline ProgramResult runProgram(const std::string& program, const Arguments& arg
     alarm(kMost_s);
     if (prepare) prepare();
     execvp(program.c_str(), argv.data());
-    _exit(127);
+    _exit(kNoSuchProgram);
   }
   int status = 0;
   waitpid(process, &status, 0);

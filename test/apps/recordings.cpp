@@ -6,8 +6,8 @@
 #include <rosbag/view.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <algorithm>
-#include <limits>
+#include <cstdint>
+#include <fstream>
 #include <stdexcept>
 
 #include "program.h"
@@ -37,10 +37,10 @@ void edit(const std::string& from, const std::string& to, const MessageEdit& edi
 }  // namespace
 
 Recording::Recording(double duration_s) {
-  const ProgramResult simulated = runProgram(
-      SIMULATE_PROGRAM,
-      {"--building", std::string(BUILDINGS_FOLDER) + "/small.yaml", "--sensor", "vlp16_sparse",
-       "--seed", "1", "--duration", std::to_string(duration_s), "--out", folder_.path()});
+  const ProgramResult simulated =
+      runProgram(SIMULATE_PROGRAM, {"--building", std::string(BUILDINGS_FOLDER) + "/small.yaml",
+                                    "--sensor", "vlp16_sparse", "--seed", "1", "--duration",
+                                    std::to_string(duration_s), "--out", folder_.path()});
   if (simulated.exit_code != 0) throw std::runtime_error(simulated.err);
 }
 
@@ -93,13 +93,14 @@ void writeCompressed(const std::string& from, const std::string& to, Compression
 }
 
 void writeTwice(const std::string& from, const std::string& to) {
-  edit(from, to, copyMessage);
   const rosbag::Bag in(from);
-  rosbag::Bag out(to, rosbag::bagmode::Append);
+  rosbag::Bag out(to, rosbag::bagmode::Write);
   rosbag::View view(in);
   const ros::Duration pass = view.getEndTime() - view.getBeginTime() + ros::Duration(0.1);
-  for (const rosbag::MessageInstance& message : view) {
-    out.write(message.getTopic(), message.getTime() + pass, message);
+  for (const ros::Duration& later : {ros::Duration(0.0), pass}) {
+    for (const rosbag::MessageInstance& message : view) {
+      out.write(message.getTopic(), message.getTime() + later, message);
+    }
   }
 }
 

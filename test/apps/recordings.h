@@ -17,8 +17,8 @@
 /// Bags to run the programs on. No header of rosbag here: they do not mix with PCL's everywhere.
 namespace mrpt_sgraphs::test {
 
-/// A simulated robot in sim/buildings/small.yaml, with 16 sparse beams at 10 Hz. The bag has /points
-/// in `lidar`, /odom of `base_link`, /imu in `imu_link` and /tf_static.
+/// A simulated robot in sim/buildings/small.yaml, with 16 sparse beams at 10 Hz. The bag has
+/// /points in `lidar`, /odom of `base_link`, /imu in `imu_link` and /tf_static.
 class Recording {
  public:
   explicit Recording(double duration_s);

@@ -1,0 +1,291 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <mrpt/graphs/CNetworkOfPoses.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "mrpt_sgraphs/io/trajectory_error.h"
+#include "program.h"
+#include "recordings.h"
+
+namespace mrpt_sgraphs::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kMaxDt_s = 0.01;
+constexpr double kMaxAte_m = 0.02;
+
+const char* const kFiles[] = {"trajectory.tum", "odometry.tum",      "keyframes.tum",
+                              "graph.json",     "graph.g2o",         "map.pcd",
+                              "scans.csv",      "optimizations.csv", "report.json"};
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> cellsOf(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> cells;
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// A table with its columns of measured times emptied.
+std::vector<std::vector<std::string>> withoutTimes(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& line : linesOf(csv)) {
+    rows.push_back(cellsOf(line));
+    for (std::size_t k = 0; k < rows.back().size() && k < rows.front().size(); ++k) {
+      if (endsWith(rows.front()[k], "_ms") && rows.size() > 1) rows.back()[k].clear();
+    }
+  }
+  return rows;
+}
+
+Json withoutTimes(const Json& report) {
+  Json kept = report;
+  for (const auto& [name, value] : report.items()) {
+    const bool measured = endsWith(name, "_ms") && value.is_number();
+    if (measured || name == "wall_s" || name == "real_time_factor" || name == "peak_mib") {
+      kept.erase(name);
+    } else if (value.is_object()) {
+      kept[name] = withoutTimes(value);
+    }
+  }
+  return kept;
+}
+
+/// A run over the whole tour, made once.
+class OfflineOutputTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    result_ = runOffline(wholeTour().bag(), folder_->file("run"));
+    ASSERT_EQ(result_.exit_code, 0) << result_.err;
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static std::string file(const std::string& name) { return folder_->file("run/" + name); }
+  static std::string read(const std::string& name) { return folder_->read("run/" + name); }
+  static Json graph() { return Json::parse(read("graph.json")); }
+
+  static inline TemporaryFolder* folder_ = nullptr;
+  static inline ProgramResult result_;
+};
+
+TEST_F(OfflineOutputTest, SaysWhatItDidAndNothingElse) {
+  const std::size_t scans = wholeTour().lidarTruth().size();
+  EXPECT_NE(result_.out.find(std::to_string(scans) + " scans, "), std::string::npos) << result_.out;
+  EXPECT_EQ(result_.err, "");  // and no progress bar where there is no terminal
+}
+
+TEST_F(OfflineOutputTest, WritesNineFilesAndNothingElse) {
+  for (const char* name : kFiles) EXPECT_NE(read(name), "") << name;
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file("")), {}), 9);
+}
+
+TEST_F(OfflineOutputTest, EveryScanHasAPoseThatIsRight) {
+  const Trajectory truth = wholeTour().lidarTruth();
+  for (const char* name : {"trajectory.tum", "odometry.tum"}) {
+    const Trajectory run = readTum(file(name));
+    ASSERT_EQ(run.size(), truth.size()) << name;
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      EXPECT_NEAR(run[k].stamp_s, truth[k].stamp_s, 1e-5) << name;
+    }
+    EXPECT_LT(evaluateTrajectory(truth, run, kMaxDt_s).ate_m.rmse, kMaxAte_m) << name;
+  }
+}
+
+TEST_F(OfflineOutputTest, GraphIsVersionedAndComplete) {
+  const Json graph = this->graph();
+  EXPECT_EQ(graph.at("format"), "mrpt_sgraphs/graph");
+  EXPECT_EQ(graph.at("version"), 1);
+  for (const char* layer : {"walls", "rooms", "floors"}) {
+    EXPECT_EQ(graph.at(layer), Json::array()) << layer;  // layers that do not exist yet
+  }
+  std::set<int> ids;
+  for (const Json& keyframe : graph.at("keyframes")) {
+    EXPECT_TRUE(ids.insert(keyframe.at("id").get<int>()).second) << keyframe;
+    EXPECT_EQ(keyframe.at("pose").size(), 7);
+    EXPECT_TRUE(keyframe.at("stamp").is_number());
+    for (const char* name : {"floor", "room", "marginalized", "representative"}) {
+      EXPECT_TRUE(keyframe.contains(name)) << name;
+    }
+  }
+  EXPECT_EQ(ids.size(), readTum(file("keyframes.tum")).size());
+
+  std::set<std::string> types;
+  for (const Json& factor : graph.at("factors")) {
+    types.insert(factor.at("type").get<std::string>());
+    EXPECT_EQ(factor.at("measurement").size(), 7);
+    ASSERT_EQ(factor.at("information").size(), 21);
+    for (const Json& number : factor.at("information")) EXPECT_TRUE(number.is_number()) << factor;
+    ASSERT_EQ(factor.at("nodes").size(), 2);
+    for (const Json& node : factor.at("nodes")) {
+      EXPECT_EQ(ids.count(node.at("keyframe").get<int>()), 1) << factor;
+    }
+  }
+  EXPECT_EQ(types, (std::set<std::string>{"loop_closure", "odometry"}));
+}
+
+TEST_F(OfflineOutputTest, KeyframesOfTheGraphAreThoseOfTheTrajectory) {
+  const Trajectory keyframes = readTum(file("keyframes.tum"));
+  const Json nodes = graph().at("keyframes");
+  ASSERT_EQ(nodes.size(), keyframes.size());
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    EXPECT_NEAR(nodes[i].at("stamp").get<double>(), keyframes[i].stamp_s, 1e-5);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(nodes[i].at("pose")[static_cast<std::size_t>(k)].get<double>(),
+                  keyframes[i].T_world_body.translation()[k], 1e-8);
+    }
+  }
+}
+
+TEST_F(OfflineOutputTest, MrptReadsTheG2oFile) {
+  std::size_t vertices = 0;
+  std::size_t edges = 0;
+  for (const std::string& line : linesOf(read("graph.g2o"))) {
+    vertices += line.rfind("VERTEX_SE3:QUAT ", 0) == 0 ? 1 : 0;
+    edges += line.rfind("EDGE_SE3:QUAT ", 0) == 0 ? 1 : 0;
+  }
+  const Json graph = this->graph();
+  EXPECT_EQ(vertices, graph.at("keyframes").size());
+  EXPECT_EQ(edges, graph.at("factors").size());
+
+  mrpt::graphs::CNetworkOfPoses3DInf network;
+  network.loadFromTextFile(file("graph.g2o"), false);
+  EXPECT_EQ(network.nodes.size(), vertices);
+  EXPECT_EQ(network.edges.size(), edges);
+  for (const Json& keyframe : graph.at("keyframes")) {
+    const auto node = network.nodes.find(keyframe.at("id").get<mrpt::graphs::TNodeID>());
+    ASSERT_TRUE(node != network.nodes.end()) << keyframe;  // gtest cannot print it
+    EXPECT_NEAR(node->second.x(), keyframe.at("pose")[0].get<double>(), 1e-9);
+  }
+}
+
+TEST_F(OfflineOutputTest, PclReadsTheMap) {
+  pcl::PointCloud<pcl::PointXYZI> map;
+  ASSERT_EQ(pcl::io::loadPCDFile(file("map.pcd"), map), 0);
+  EXPECT_GT(map.size(), 10000U);
+  for (const pcl::PointXYZI& point : map) {
+    ASSERT_TRUE(point.getVector3fMap().allFinite() && std::isfinite(point.intensity));
+  }
+}
+
+TEST_F(OfflineOutputTest, ReportSumsUp) {
+  const Json report = Json::parse(read("report.json"));
+  EXPECT_EQ(report.at("format"), "mrpt_sgraphs/report");
+  EXPECT_EQ(report.at("version"), 1);
+  EXPECT_EQ(report.at("scans"), wholeTour().lidarTruth().size());
+  EXPECT_EQ(report.at("scans_registered"), report.at("scans"));
+  EXPECT_EQ(report.at("keyframes"), graph().at("keyframes").size());
+  EXPECT_GT(report.at("loop_closures"), 0);
+  EXPECT_EQ(report.at("front_end_ms").at("count"), report.at("scans"));
+  EXPECT_GT(report.at("real_time_factor"), 1.0);
+  EXPECT_GT(report.at("peak_mib"), 1.0);
+  EXPECT_GT(report.at("wall_s"), 0.0);
+  const Trajectory truth = wholeTour().lidarTruth();
+  EXPECT_NEAR(report.at("data_s").get<double>(), truth.back().stamp_s - truth.front().stamp_s,
+              1e-3);
+  EXPECT_TRUE(report.at("parameters").contains("prefilter/max_range_m"));
+  for (const auto& [kind, times] : report.at("optimizations").items()) {
+    for (const char* name : {"count", "mean_ms", "p50_ms", "p95_ms", "max_ms"}) {
+      EXPECT_TRUE(times.at(name).is_number()) << kind << ' ' << name;
+    }
+  }
+}
+
+TEST_F(OfflineOutputTest, TablesHaveARowForEach) {
+  const Json report = Json::parse(read("report.json"));
+  std::size_t optimizations = 0;
+  for (const auto& [kind, times] : report.at("optimizations").items()) {
+    optimizations += times.at("count").get<std::size_t>();
+  }
+  EXPECT_GT(optimizations, 0U);
+  for (const auto& [name, rows] : {std::pair("scans.csv", report.at("scans").get<std::size_t>()),
+                                   std::pair("optimizations.csv", optimizations)}) {
+    const auto table = withoutTimes(read(name));
+    EXPECT_EQ(table.size(), rows + 1) << name;
+    for (const auto& row : table) EXPECT_EQ(row.size(), table.front().size()) << name;
+  }
+}
+
+TEST_F(OfflineOutputTest, ASecondRunIsTheSameButForTimes) {
+  ASSERT_EQ(runOffline(wholeTour().bag(), folder_->file("again")).exit_code, 0);
+  const auto again = [](const char* name) { return folder_->read(std::string("again/") + name); };
+  for (const char* name :
+       {"trajectory.tum", "odometry.tum", "keyframes.tum", "graph.json", "graph.g2o", "map.pcd"}) {
+    EXPECT_TRUE(again(name) == read(name)) << name;  // not EXPECT_EQ, which would print them
+  }
+  for (const char* name : {"scans.csv", "optimizations.csv"}) {
+    EXPECT_EQ(withoutTimes(again(name)), withoutTimes(read(name))) << name;
+  }
+  EXPECT_EQ(withoutTimes(Json::parse(again("report.json"))),
+            withoutTimes(Json::parse(read("report.json"))));
+}
+
+TEST_F(OfflineOutputTest, ASplitRecordingIsTheSameAsAWholeOne) {
+  const std::string first = folder_->file("first.bag");
+  const std::string second = folder_->file("second.bag");
+  writeSplit(wholeTour().bag(), 21.0, first, second);
+  for (const Arguments& bags :
+       {Arguments{"--bag", first, "--bag", second}, Arguments{"--bag", second, "--bag", first}}) {
+    Arguments arguments{"--points", "/points", "--out", folder_->file("split")};
+    arguments.insert(arguments.end(), bags.begin(), bags.end());
+    const ProgramResult split = runOffline(arguments);
+    ASSERT_EQ(split.exit_code, 0) << split.err;
+    EXPECT_TRUE(folder_->read("split/trajectory.tum") == read("trajectory.tum"));
+  }
+}
+
+TEST_F(OfflineOutputTest, StopsAfterTheDuration) {
+  const ProgramResult result =
+      runOffline(wholeTour().bag(), folder_->file("short"), {"--duration", "3.05"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(readTum(folder_->file("short/trajectory.tum")).size(), 30U);  // sent when complete
+}
+
+TEST_F(OfflineOutputTest, OdometryAndImuDoNotSpoilIt) {
+  for (const Arguments& sensors : {Arguments{"--odom", "/odom"}, Arguments{"--imu", "/imu"},
+                                   Arguments{"--odom", "/odom", "--imu", "/imu"}}) {
+    const ProgramResult result = runOffline(wholeTour().bag(), folder_->file("sensors"), sensors);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_FALSE(folder_->read("sensors/trajectory.tum") == read("trajectory.tum"));  // heeded
+    const Trajectory run = readTum(folder_->file("sensors/trajectory.tum"));
+    EXPECT_EQ(run.size(), wholeTour().lidarTruth().size());
+    EXPECT_LT(evaluateTrajectory(wholeTour().lidarTruth(), run, kMaxDt_s).ate_m.rmse, kMaxAte_m);
+  }
+}
+
+TEST_F(OfflineOutputTest, DrawsAProgressBarOnATerminal) {
+  const std::string command = std::string(OFFLINE_PROGRAM) + " --points /points --bag '" +
+                              tenSeconds().bag() + "' --out '" + folder_->file("bar") + "'";
+  const Arguments options{"--quiet", "--return", "/dev/null", "--command"};
+  for (const bool quiet : {false, true}) {
+    Arguments arguments = options;
+    arguments.push_back(command + (quiet ? " --quiet" : ""));
+    const ProgramResult result = runProgram("script", arguments);
+    if (result.exit_code == kNoSuchProgram) GTEST_SKIP() << "no 'script' to make a terminal";
+    ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_EQ(result.out.find("====") == std::string::npos, quiet) << result.out;
+    EXPECT_NE(result.out.find(" scans, "), std::string::npos) << result.out;
+  }
+}
+
+}  // namespace
+}  // namespace mrpt_sgraphs::test

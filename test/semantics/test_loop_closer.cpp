@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mrpt_sgraphs/semantics/loop_closer.h"
+
+#include <gtest/gtest.h>
+
+#include "keyframes_of_a_walk.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+using test::KeyframeWithTruth;
+using test::WalkErrors;
+
+/// The graph that a walk makes, without any loop in it.
+struct Chain {
+  std::vector<KeyframeNode> keyframes;
+  std::vector<RelativePoseEdge> edges;
+
+  void add(const Keyframe& keyframe) {
+    const KeyframeId id{keyframes.size()};
+    if (!keyframes.empty()) {
+      RelativePoseEdge edge;
+      edge.from = keyframes.back().id;
+      edge.to = id;
+      edge.T_from_to = keyframes.back().T_odom_base.inverse() * keyframe.T_odom_base;
+      edge.information = keyframe.covariance.inverse();
+      edges.push_back(edge);
+    }
+    keyframes.push_back(
+        {id, keyframe.stamp_s, keyframe.T_odom_base, keyframe.T_odom_base, keyframe.cloud});
+  }
+};
+
+/// The loops that are found when the keyframes come one by one.
+std::vector<RelativePoseEdge> loopsOf(const std::vector<KeyframeWithTruth>& walk,
+                                      const LoopCloserConfig& config = {}) {
+  LoopCloser closer(config);
+  Chain chain;
+  std::vector<RelativePoseEdge> loops;
+  for (const KeyframeWithTruth& step : walk) {
+    chain.add(step.keyframe);
+    for (const RelativePoseEdge& loop : closer.find(chain.keyframes, chain.edges)) {
+      EXPECT_EQ(loop.to, chain.keyframes.back().id);
+      EXPECT_LT(loop.from, loop.to);
+      EXPECT_EQ(loop.kind, RelativePoseEdge::Kind::kLoopClosure);
+      loops.push_back(loop);
+    }
+  }
+  return loops;
+}
+
+class LoopCloserTest : public ::testing::Test {
+ protected:
+  std::vector<KeyframeWithTruth> round(const WalkErrors& errors = {}) const {
+    return test::walk(stage_, test::roundOfTheSmallBuilding(), errors);
+  }
+
+  const test::ScanStage stage_{sim::test::shipped("small"), sim::lidarNamed("vlp16_sparse")};
+};
+
+TEST_F(LoopCloserTest, FindsReturnsAndMeasuresThem) {
+  for (const WalkErrors& errors :
+       {WalkErrors{}, WalkErrors{{0.3, 0.0, 0.0}, 0.0175}, WalkErrors{{-0.2, 0.25, 0.1}, -0.03},
+        WalkErrors{{0.5, -0.3, 0.0}, 0.05, 0.04, 0.008}}) {
+    SCOPED_TRACE(errors.drift_m.transpose());
+    const auto walk = round(errors);
+    const auto loops = loopsOf(walk);
+    EXPECT_GE(loops.size(), 2U);
+    for (const RelativePoseEdge& loop : loops) {
+      const Pose T_from_to = walk[loop.from.value].T_map_base.inverse() *
+                             walk[loop.to.value].T_map_base;
+      const Tangent error = local(T_from_to, loop.T_from_to);
+      EXPECT_LT(error.head<3>().norm(), 0.04) << loop.from.value << " to " << loop.to.value;
+      EXPECT_LT(error.tail<3>().norm(), 0.01) << loop.from.value << " to " << loop.to.value;
+      // and is as good as it says
+      EXPECT_LT(error.dot(loop.information * error), 22.5);
+    }
+  }
+}
+
+TEST_F(LoopCloserTest, LeavesNeighboursAlone) {
+  const auto walk = round();
+  LoopCloserConfig config;
+  for (const RelativePoseEdge& loop : loopsOf(walk, config)) {
+    double way_m = 0.0;
+    for (std::size_t k = loop.from.value; k < loop.to.value; ++k) {
+      way_m += (walk[k + 1].T_map_base.translation() - walk[k].T_map_base.translation()).norm();
+    }
+    EXPECT_GT(way_m, config.min_path_m);
+  }
+  config.min_path_m = 100.0;
+  EXPECT_TRUE(loopsOf(walk, config).empty()) << "the whole walk is shorter";
+}
+
+TEST_F(LoopCloserTest, SearchesNoOftenerThanItIsTold) {
+  const auto walk = round();
+  LoopCloserConfig config;
+  config.min_interval_m = 0.0;
+  const auto always = loopsOf(walk, config);
+  config.min_interval_m = 5.0;
+  const auto seldom = loopsOf(walk, config);
+  EXPECT_LT(seldom.size(), always.size());
+  for (std::size_t k = 1; k < seldom.size(); ++k) {
+    EXPECT_GE(seldom[k].to.value - seldom[k - 1].to.value, 5U);  // a keyframe a metre, or less
+  }
+}
+
+TEST_F(LoopCloserTest, DoesNothingWhenItIsOff) {
+  LoopCloserConfig config;
+  config.enabled = false;
+  EXPECT_TRUE(loopsOf(round(), config).empty());
+  EXPECT_TRUE(LoopCloser({}).find({}, {}).empty());
+}
+
+/// A robot that leaves the west room and comes to one that looks exactly the same.
+class IdenticalRooms : public LoopCloserTest {
+ protected:
+  static constexpr std::size_t kInRoom = 4;
+
+  /// @param apart_m   From room to room.
+  /// @param sigma_m   Of the odometry, from keyframe to keyframe.
+  std::vector<KeyframeWithTruth> walk(double apart_m, double sigma_m) const {
+    WalkErrors errors;
+    errors.sigma_m = sigma_m;
+    errors.sigma_rad = 0.05 * sigma_m;
+    auto keyframes = test::walk(
+        stage_, {{2.0, 4.0}, {2.0, 5.0}, {3.0, 5.0}, {2.4, 4.0}, {2.4, 1.0}, {8.2, 1.0}}, errors);
+    // once more what was seen in the room, some way off
+    const Pose T_odom_second = Pose(Eigen::Translation3d(0.0, -apart_m, 0.0));
+    for (std::size_t k = 0; k < kInRoom; ++k) {
+      KeyframeWithTruth again = keyframes[k];
+      again.keyframe.stamp_s = keyframes.back().keyframe.stamp_s + 1.0;
+      again.keyframe.T_odom_base = T_odom_second * again.keyframe.T_odom_base;
+      // the way back to the first of them is no jump
+      again.keyframe.covariance = keyframes.back().keyframe.covariance;
+      keyframes.push_back(again);
+    }
+    return keyframes;
+  }
+};
+
+TEST_F(IdenticalRooms, EightMetresApartMakeNoLoop) { EXPECT_TRUE(loopsOf(walk(8.0, 0.01)).empty()); }
+
+TEST_F(IdenticalRooms, WithinReachMakeNoLoopEither) {
+  // near enough to be tried, and the clouds fit: it is the way between that speaks against it
+  EXPECT_TRUE(loopsOf(walk(2.5, 0.01)).empty());
+}
+
+TEST_F(IdenticalRooms, MakeALoopOnceTheRobotMayHaveComeBack) {
+  EXPECT_FALSE(loopsOf(walk(2.5, 0.3)).empty());
+}
+
+}  // namespace
+}  // namespace mrpt_sgraphs
