@@ -50,7 +50,3 @@ cmake --build build --parallel "$(job_count)"
 for target in "$@"; do
   cmake --build build --parallel "$(job_count)" --target "$target"
 done
-
-# rosrun looks for programs in the package's folder, but passes over everything below its build/. By
-# this link it finds them all the same.
-ln -sfn build/devel devel

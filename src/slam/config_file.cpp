@@ -60,6 +60,12 @@ class SectionReader {
   std::set<std::string> known_;
 };
 
+/// Nothing at all is an empty map.
+void requireMap(const YAML::Node& node, const std::string& where) {
+  if (node.IsMap() || node.IsNull()) return;
+  throw std::runtime_error(where + " must be a list of 'name: value' lines");
+}
+
 /// Sections that only the nodelets have.
 bool isForRosAlone(const std::string& section) {
   return section == "frames" || section == "inputs";
@@ -74,11 +80,13 @@ SlamConfig loadConfigFile(const std::string& path) {
   } catch (const YAML::Exception& e) {
     throw std::runtime_error("cannot read the parameter file '" + path + "': " + e.what());
   }
+  requireMap(file, path);
   SlamConfig config;
   std::set<std::string> known;
   SlamConfig::sections(config, [&](const char* name, auto& section) {
     known.insert(name);
     if (!file[name]) return;
+    requireMap(file[name], path + ": " + name);
     SectionReader reader(file[name], path + ": " + name);
     std::decay_t<decltype(section)>::fields(section, reader);
     reader.refuseUnknown();

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mrpt_sgraphs/slam/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include "mrpt_sgraphs/io/trajectory_error.h"
+#include "mrpt_sgraphs/slam/config_file.h"
+#include "support/simulated_scans.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+/// Everything that a run measures, in the order in which it would come.
+RunRecord play(const test::SimulatedRun& run, const SlamConfig& config) {
+  Pipeline pipeline(config);
+  std::size_t imu = 0;
+  std::size_t odom = 0;
+  for (std::size_t k = 0; k < run.scans.size(); ++k) {
+    constexpr double kSweep_s = 0.1;
+    const double until_s = run.truth[k].stamp_s + 1.1 * kSweep_s;
+    for (; imu < run.imu.size() && run.imu[imu].stamp_s < until_s; ++imu) {
+      pipeline.addImu(run.imu[imu]);
+    }
+    for (; odom < run.odom.size() && run.odom[odom].stamp_s < until_s; ++odom) {
+      pipeline.addOdom(run.odom[odom]);
+    }
+    const test::OwnedRawCloud raw = run.rawCloud(k);
+    EXPECT_EQ(pipeline.addScan(raw.view(), run.T_base_lidar, "base_link"), "") << "scan " << k;
+  }
+  EXPECT_EQ(pipeline.scans(), run.scans.size());
+  return pipeline.record();
+}
+
+class PipelineInABuilding : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    run_ = new test::SimulatedRun(test::simulatedRun(sim::test::shipped("small"), "vlp16_sparse"));
+    record_ = new RunRecord(play(*run_, SlamConfig{}));
+  }
+  static void TearDownTestSuite() {
+    delete record_;
+    delete run_;
+  }
+
+  static const test::SimulatedRun* run_;
+  static const RunRecord* record_;
+};
+const test::SimulatedRun* PipelineInABuilding::run_ = nullptr;
+const RunRecord* PipelineInABuilding::record_ = nullptr;
+
+TEST_F(PipelineInABuilding, RecordsEveryScan) {
+  const std::size_t scans = run_->scans.size();
+  ASSERT_EQ(record_->scans.size(), scans);
+  ASSERT_EQ(record_->odometry.size(), scans);
+  ASSERT_EQ(record_->trajectory.size(), scans);
+  std::size_t keyframes = 0;
+  for (std::size_t k = 0; k < scans; ++k) {
+    const ScanReport& report = record_->scans[k];
+    EXPECT_NEAR(report.stamp_s, run_->truth[k].stamp_s, 1e-6);
+    EXPECT_EQ(report.stamp_s, record_->odometry[k].stamp_s);
+    EXPECT_EQ(report.stamp_s, record_->trajectory[k].stamp_s);
+    EXPECT_TRUE(report.registered) << k;
+    for (const double time_ms : {report.prefilter_ms, report.deskew_ms, report.register_ms,
+                                 report.map_ms, report.keyframe_ms}) {
+      EXPECT_GE(time_ms, 0.0);
+    }
+    keyframes += report.keyframe ? 1 : 0;
+  }
+  EXPECT_EQ(keyframes, record_->graph->keyframes.size());
+  EXPECT_EQ(record_->parameters, parameterList(SlamConfig{}));
+}
+
+TEST_F(PipelineInABuilding, FollowsTheWalk) {
+  const auto ate = [](const Trajectory& poses) {
+    constexpr double kSameStamp_s = 1e-3;
+    return evaluateTrajectory(run_->truth, poses, kSameStamp_s).ate_m.rmse;
+  };
+  EXPECT_LT(ate(record_->odometry), 0.02);
+  EXPECT_LT(ate(record_->trajectory), 0.02);
+}
+
+TEST_F(PipelineInABuilding, TrajectoryGoesThroughTheKeyframes) {
+  std::size_t scan = 0;
+  for (const KeyframeNode& keyframe : record_->graph->keyframes) {
+    while (record_->trajectory[scan].stamp_s < keyframe.stamp_s) ++scan;
+    ASSERT_EQ(record_->trajectory[scan].stamp_s, keyframe.stamp_s);
+    const Pose& T_map_base = record_->trajectory[scan].T_world_body;
+    EXPECT_LT(local(T_map_base, keyframe.T_map_base).norm(), 1e-6);
+    ASSERT_NE(keyframe.cloud, nullptr);
+    EXPECT_EQ(keyframe.cloud->header.frame_id, "base_link");
+  }
+}
+
+TEST_F(PipelineInABuilding, SameInputSameOutput) {
+  const RunRecord again = play(*run_, SlamConfig{});
+  ASSERT_EQ(again.trajectory.size(), record_->trajectory.size());
+  for (std::size_t k = 0; k < again.trajectory.size(); ++k) {
+    ASSERT_EQ(again.odometry[k].T_world_body.matrix(), record_->odometry[k].T_world_body.matrix());
+    ASSERT_EQ(again.trajectory[k].T_world_body.matrix(),
+              record_->trajectory[k].T_world_body.matrix());
+  }
+  ASSERT_EQ(again.graph->keyframes.size(), record_->graph->keyframes.size());
+  ASSERT_EQ(again.graph->edges.size(), record_->graph->edges.size());
+  ASSERT_EQ(again.optimizations.size(), record_->optimizations.size());
+  for (std::size_t k = 0; k < again.graph->keyframes.size(); ++k) {
+    const Cloud& a = *again.graph->keyframes[k].cloud;
+    const Cloud& b = *record_->graph->keyframes[k].cloud;
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      ASSERT_EQ(a[i].getVector3fMap(), b[i].getVector3fMap());
+    }
+  }
+}
+
+TEST_F(PipelineInABuilding, LeavesOutScansThatAreOfNoUse) {
+  Pipeline pipeline(SlamConfig{});
+  const auto add = [&](const RawCloud& raw) {
+    return pipeline.addScan(raw, run_->T_base_lidar, "base_link");
+  };
+  const test::OwnedRawCloud first = run_->rawCloud(0);
+  const test::OwnedRawCloud second = run_->rawCloud(1);
+  EXPECT_EQ(add(second.view()), "");
+  EXPECT_NE(add(second.view()).find("not newer"), std::string::npos) << "once more";
+  EXPECT_NE(add(first.view()).find("not newer"), std::string::npos) << "an earlier one";
+  RawCloud broken = run_->rawCloud(2).header;
+  EXPECT_NE(add(broken), "") << "without data";
+  EXPECT_EQ(pipeline.scans(), 1U);
+  const RunRecord record = pipeline.record();
+  EXPECT_EQ(record.scans.size(), 1U);
+  EXPECT_EQ(record.graph->keyframes.size(), 1U);
+}
+
+TEST(Pipeline, OfNothingRecordsNothing) {
+  const RunRecord record = Pipeline(SlamConfig{}).record();
+  EXPECT_TRUE(record.trajectory.empty());
+  EXPECT_TRUE(record.scans.empty());
+  ASSERT_NE(record.graph, nullptr);
+  EXPECT_TRUE(record.graph->keyframes.empty());
+}
+
+}  // namespace
+}  // namespace mrpt_sgraphs
