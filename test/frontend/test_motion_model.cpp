@@ -67,10 +67,10 @@ TEST_F(MotionModelTest, DoesNotDependOnWhereTheMapIs) {
 TEST_F(MotionModelTest, IsLessSureTheFartherAhead) {
   Tangent before = Tangent::Zero();
   for (const double dt_s : {0.05, 0.1, 0.2, 0.5, 1.0, 3.0}) {
-    const Matrix12 covariance = covarianceOf(predict(last_, dt_s));
-    EXPECT_TRUE(covariance.isApprox(covariance.transpose(), 1e-6));
-    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix12>(covariance).eigenvalues()[0], 0.0);
-    const Tangent variance = covariance.diagonal().head<6>();
+    const MotionPrior prior = predict(last_, dt_s);
+    EXPECT_TRUE(prior.information.isApprox(prior.information.transpose(), 1e-6));
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix12>(prior.information).eigenvalues()[0], 0.0);
+    const Tangent variance = covarianceOfPose(prior).diagonal();
     EXPECT_GT((variance - before).minCoeff(), 0.0) << dt_s;
     before = variance;
   }

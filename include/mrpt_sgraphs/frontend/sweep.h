@@ -22,8 +22,8 @@ class Sweep {
   bool hasTurning() const { return !R_stamp_base_.empty(); }
   double end_s() const;  ///< Stamp of the last point.
 
-  /// At most so many points, spread over space so that near walls do not outvote far ones; turned to
-  /// the stamp by the gyroscope where there is one.
+  /// About so many points at the most, spread over space so that near walls do not outvote far ones;
+  /// turned to the stamp by the gyroscope where there is one.
   std::vector<ScanPoint> pointsToRegister(int most) const;
 
   /// The scan as if all of it had been measured at its stamp, with the given motion.
