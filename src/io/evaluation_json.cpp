@@ -7,7 +7,7 @@
 namespace mrpt_sgraphs {
 namespace {
 
-using Json = nlohmann::ordered_json;  // writes NaN as null
+using Json = nlohmann::json;  // writes NaN as null
 
 Json toJson(const ErrorStatistics& e) {
   return {{"rmse", e.rmse}, {"mean", e.mean}, {"median", e.median}, {"max", e.max}};

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mrpt_sgraphs/frontend/motion_buffers.h"
-#include "mrpt_sgraphs/frontend/point_cloud.h"
+#include "mrpt_sgraphs/geometry/point_cloud.h"
 #include "mrpt_sgraphs/frontend/raw_cloud.h"
 #include "mrpt_sgraphs/io/tum.h"
 #include "sim/point_encoding.h"

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "mrpt_sgraphs/geometry/pose.h"
+#include "mrpt_sgraphs/factors/factor.h"
 
 namespace mrpt_sgraphs {
 
@@ -46,5 +46,29 @@ inline Tangent relativePoseResidual(const Pose& measured_from_to, const Pose& T_
   }
   return e;
 }
+
+/// Odometry, a loop closure, or the paper's bridge over marginalized keyframes.
+class RelativePoseFactor final : public ResidualFactor<6, Pose, Pose> {
+ public:
+  enum class Kind { kOdometry, kLoopClosure, kBridge };
+
+  /// @param information  Inverse covariance of the right perturbation of T_from_to, `[t; theta]`.
+  RelativePoseFactor(NodeId from, NodeId to, const Pose& T_from_to, const Matrix6& information,
+                     Kind kind = Kind::kOdometry, const RobustKernel& kernel = {})
+      : ResidualFactor({from, to}, information, kernel), T_from_to(T_from_to), kind(kind) {}
+
+  const char* type() const override {
+    constexpr const char* kTypes[] = {"odometry", "loop_closure", "bridge"};
+    return kTypes[static_cast<int>(kind)];
+  }
+
+  Residual evaluate(const Pose& T_map_from, const Pose& T_map_to, Jacobian<Pose>* J_from,
+                    Jacobian<Pose>* J_to) const override {
+    return relativePoseResidual(T_from_to, T_map_from, T_map_to, J_from, J_to);
+  }
+
+  const Pose T_from_to;
+  const Kind kind;
+};
 
 }  // namespace mrpt_sgraphs

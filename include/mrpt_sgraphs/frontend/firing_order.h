@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "mrpt_sgraphs/frontend/point_cloud.h"
+#include "mrpt_sgraphs/geometry/point_cloud.h"
 
 namespace mrpt_sgraphs {
 

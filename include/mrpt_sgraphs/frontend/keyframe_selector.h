@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "mrpt_sgraphs/frontend/point_cloud.h"
+#include "mrpt_sgraphs/geometry/point_cloud.h"
 #include "mrpt_sgraphs/geometry/pose.h"
 
 namespace mrpt_sgraphs {

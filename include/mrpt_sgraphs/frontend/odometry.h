@@ -9,7 +9,7 @@
 
 #include "mrpt_sgraphs/frontend/motion_buffers.h"
 #include "mrpt_sgraphs/frontend/motion_model.h"
-#include "mrpt_sgraphs/frontend/point_cloud.h"
+#include "mrpt_sgraphs/geometry/point_cloud.h"
 #include "mrpt_sgraphs/frontend/registration.h"
 #include "mrpt_sgraphs/frontend/scan_matcher.h"
 #include "mrpt_sgraphs/frontend/voxel_map.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mrpt_sgraphs/frontend/motion_buffers.h"
-#include "mrpt_sgraphs/frontend/point_cloud.h"
+#include "mrpt_sgraphs/geometry/point_cloud.h"
 #include "mrpt_sgraphs/frontend/registration.h"
 
 namespace mrpt_sgraphs {

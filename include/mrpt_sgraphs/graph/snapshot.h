@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "mrpt_sgraphs/frontend/point_cloud.h"
+#include "mrpt_sgraphs/geometry/point_cloud.h"
 #include "mrpt_sgraphs/geometry/ids.h"
 #include "mrpt_sgraphs/geometry/pose.h"
 
