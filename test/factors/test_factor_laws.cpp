@@ -50,7 +50,7 @@ class FactorLaws : public ::testing::TestWithParam<double> {
 
       EXPECT_NEAR(test::evaluate(factor, at_measurement).norm(), 0.0, rounding);
 
-      const Values values = test::retract(at_measurement, disturbance(factor));
+      const Values values = test::retracted(at_measurement, disturbance(factor));
       const Eigen::VectorXd e = test::evaluate(factor, values);
       EXPECT_GT(e.norm(), 1e-3);
       const Eigen::VectorXd e_moved =

@@ -33,7 +33,7 @@ inline Values moved(const Pose& T_other_map, Values values) {
   return values;
 }
 
-inline Values retract(Values values, const Eigen::VectorXd& delta) {
+inline Values retracted(Values values, const Eigen::VectorXd& delta) {
   Eigen::Index row = 0;
   for (Value& value : values) {
     std::visit(
@@ -54,7 +54,7 @@ Eigen::MatrixXd centralDifferences(const Function& f, const Values& values, Eige
   Eigen::MatrixXd J(f(values).size(), tangents);
   for (Eigen::Index k = 0; k < tangents; ++k) {
     const Eigen::VectorXd delta = step * Eigen::VectorXd::Unit(tangents, k);
-    J.col(k) = (f(retract(values, delta)) - f(retract(values, -delta))) / (2.0 * step);
+    J.col(k) = (f(retracted(values, delta)) - f(retracted(values, -delta))) / (2.0 * step);
   }
   return J;
 }
