@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <limits>
 #include <queue>
+#include <unordered_map>
 
 namespace mrpt_sgraphs {
 namespace {
@@ -17,16 +18,27 @@ double spread(const Matrix6& covariance) {
          kLever_m * kLever_m * covariance.bottomRightCorner<3, 3>().trace();
 }
 
+/// Two keyframes by their places.
+struct Edge {
+  const RelativePoseFactor* factor;
+  std::size_t from;
+  std::size_t to;
+};
+
 }  // namespace
 
-std::vector<Matrix6> uncertaintyToNewest(const std::vector<KeyframeNode>& keyframes,
-                                         const std::vector<RelativePoseEdge>& edges) {
+std::vector<Matrix6> uncertaintyToNewest(const GraphSnapshot& graph) {
+  const SharedVector<KeyframeNode>& keyframes = graph.keyframes;
   const std::size_t count = keyframes.size();
-  const uint64_t first = keyframes.front().id.value;
-  std::vector<std::vector<const RelativePoseEdge*>> neighbours(count);
-  for (const RelativePoseEdge& edge : edges) {
-    neighbours[edge.from.value - first].push_back(&edge);
-    neighbours[edge.to.value - first].push_back(&edge);
+  std::unordered_map<uint64_t, std::size_t> indices;
+  for (std::size_t k = 0; k < count; ++k) indices[keyframes[k].id.value] = k;
+  std::vector<std::vector<Edge>> neighbours(count);
+  for (const StoredFactor& stored : graph.factors) {
+    const RelativePoseFactor* const factor = keyframeEdge(*stored.factor);
+    if (factor == nullptr) continue;
+    const Edge edge{factor, indices.at(factor->node(0).value), indices.at(factor->node(1).value)};
+    neighbours[edge.from].push_back(edge);
+    neighbours[edge.to].push_back(edge);
   }
 
   // Dijkstra from the newest
@@ -40,16 +52,15 @@ std::vector<Matrix6> uncertaintyToNewest(const std::vector<KeyframeNode>& keyfra
     const auto [reached, at] = open.top();
     open.pop();
     if (reached > length[at]) continue;
-    for (const RelativePoseEdge* edge : neighbours[at]) {
-      const std::size_t from = edge->from.value - first;
-      const std::size_t to = edge->to.value - first;
-      const std::size_t next = from == at ? to : from;
+    for (const Edge& edge : neighbours[at]) {
+      const std::size_t next = edge.from == at ? edge.to : edge.from;
       // the edge's covariance is of its `to` end; move it to the newest keyframe
-      const Pose T_to_newest = keyframes[to].T_map_base.inverse() * keyframes.back().T_map_base;
+      const Pose T_to_newest =
+          keyframes[edge.to].T_map_base.inverse() * keyframes.back().T_map_base;
       const Matrix6 adjoint = adjointOfInverse(T_to_newest);
       const Matrix6 covariance =
-          uncertainty[at] +
-          adjoint * edge->information.ldlt().solve(Matrix6::Identity()) * adjoint.transpose();
+          uncertainty[at] + adjoint * edge.factor->information().ldlt().solve(Matrix6::Identity()) *
+                                adjoint.transpose();
       const double through = spread(covariance);
       if (through >= length[next]) continue;
       length[next] = through;

@@ -36,18 +36,17 @@ Json toJson(const KeyframeNode& keyframe) {
           {"stamp", keyframe.stamp_s},
           {"pose", toJson(keyframe.T_map_base)},
           {"odometry", toJson(keyframe.T_odom_base)},
-          {"floor", nullptr},
-          {"room", nullptr},
-          {"marginalized", false},
-          {"representative", keyframe.id.value}};
+          {"floor", keyframe.floor ? Json(keyframe.floor->value) : Json(nullptr)},
+          {"room", keyframe.room ? Json(keyframe.room->value) : Json(nullptr)},
+          {"marginalized", keyframe.marginalized},
+          {"representative", keyframe.representative.value_or(keyframe.id).value}};
 }
 
-Json toJson(const RelativePoseEdge& edge) {
-  const bool loop = edge.kind == RelativePoseEdge::Kind::kLoopClosure;
-  return {{"type", loop ? "loop_closure" : "odometry"},
-          {"nodes", {{{"keyframe", edge.from.value}}, {{"keyframe", edge.to.value}}}},
+Json toJson(const RelativePoseFactor& edge) {
+  return {{"type", edge.type()},
+          {"nodes", {{{"keyframe", edge.node(0).value}}, {{"keyframe", edge.node(1).value}}}},
           {"measurement", toJson(edge.T_from_to)},
-          {"information", toJson(edge.information)}};
+          {"information", toJson(edge.information())}};
 }
 
 void writePose(const Pose& T, std::ostream& out) {
@@ -61,7 +60,10 @@ void writeGraphJson(const GraphSnapshot& graph, std::ostream& out) {
   Json keyframes = Json::array();
   for (const KeyframeNode& keyframe : graph.keyframes) keyframes.push_back(toJson(keyframe));
   Json factors = Json::array();
-  for (const RelativePoseEdge& edge : graph.edges) factors.push_back(toJson(edge));
+  for (const StoredFactor& stored : graph.factors) {
+    const RelativePoseFactor* const edge = keyframeEdge(*stored.factor);
+    if (edge != nullptr) factors.push_back(toJson(*edge));
+  }
   const Json document = {{"format", "mrpt_sgraphs/graph"},
                          {"version", kGraphVersion},
                          {"map_odom", toJson(graph.T_map_odom)},
@@ -83,10 +85,12 @@ void writeG2o(const GraphSnapshot& graph, std::ostream& out) {
   if (!graph.keyframes.empty()) out << "FIX " << graph.keyframes.front().id.value << '\n';
   Tangent scale;
   scale << 1.0, 1.0, 1.0, 2.0, 2.0, 2.0;
-  for (const RelativePoseEdge& edge : graph.edges) {
-    out << "EDGE_SE3:QUAT " << edge.from.value << ' ' << edge.to.value << ' ';
-    writePose(edge.T_from_to, out);
-    const Matrix6 information = scale.asDiagonal() * edge.information * scale.asDiagonal();
+  for (const StoredFactor& stored : graph.factors) {
+    const RelativePoseFactor* const edge = keyframeEdge(*stored.factor);
+    if (edge == nullptr) continue;
+    out << "EDGE_SE3:QUAT " << edge->node(0).value << ' ' << edge->node(1).value << ' ';
+    writePose(edge->T_from_to, out);
+    const Matrix6 information = scale.asDiagonal() * edge->information() * scale.asDiagonal();
     for (int row = 0; row < 6; ++row) {
       for (int column = row; column < 6; ++column) out << ' ' << information(row, column);
     }

@@ -82,8 +82,9 @@ void writeReport(const RunRecord& run, std::ostream& out) {
     registered += r.registered ? 1 : 0;
   }
   const auto loops =
-      std::count_if(run.graph->edges.begin(), run.graph->edges.end(), [](const auto& edge) {
-        return edge.kind == RelativePoseEdge::Kind::kLoopClosure;
+      std::count_if(run.graph->factors.begin(), run.graph->factors.end(), [](const auto& stored) {
+        const RelativePoseFactor* const edge = keyframeEdge(*stored.factor);
+        return edge != nullptr && edge->kind == RelativePoseFactor::Kind::kLoopClosure;
       });
   const Json report = {
       {"format", "mrpt_sgraphs/report"},

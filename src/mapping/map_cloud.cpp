@@ -13,6 +13,7 @@ Cloud::Ptr mapCloud(const GraphSnapshot& graph, double resolution_m) {
   const bool thin = resolution_m > 0.0;
   VoxelSet voxels(thin ? resolution_m : 1.0);
   for (const KeyframeNode& keyframe : graph.keyframes) {
+    if (keyframe.cloud == nullptr) continue;
     for (const Point& point : *keyframe.cloud) {
       const Eigen::Vector3d p = keyframe.T_map_base * point.getVector3fMap().cast<double>();
       if (thin && !voxels.insert(p.cast<float>())) continue;

@@ -12,8 +12,9 @@ namespace {
 
 using RowMajor6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
-const char* typeName(RelativePoseEdge::Kind kind) {
-  return kind == RelativePoseEdge::Kind::kLoopClosure ? "loop_closure" : "odometry";
+template <typename Layer>
+std::int64_t toMsg(const std::optional<Id<Layer>>& id) {
+  return id ? static_cast<std::int64_t>(id->value) : std::int64_t{GraphKeyframe::NONE};
 }
 
 GraphKeyframe toMsg(const KeyframeNode& node) {
@@ -21,17 +22,20 @@ GraphKeyframe toMsg(const KeyframeNode& node) {
   msg.id = node.id.value;
   msg.stamp = toRosTime(node.stamp_s);
   msg.pose = toPoseMsg(node.T_map_base);
-  msg.floor = GraphKeyframe::NONE;
-  msg.room = GraphKeyframe::NONE;
-  msg.representative = node.id.value;
+  msg.floor = toMsg(node.floor);
+  msg.room = toMsg(node.room);
+  msg.marginalized = node.marginalized;
+  msg.representative = node.representative.value_or(node.id).value;
   return msg;
 }
 
-GraphFactor toMsg(const RelativePoseEdge& edge) {
+GraphFactor toMsg(const Factor& factor) {
   GraphFactor msg;
-  msg.type = typeName(edge.kind);
-  msg.layers = {GraphFactor::KEYFRAME, GraphFactor::KEYFRAME};
-  msg.nodes = {edge.from.value, edge.to.value};
+  msg.type = factor.type();
+  for (int k = 0; k < factor.nodeCount(); ++k) {
+    msg.layers.push_back(static_cast<std::uint8_t>(factor.node(k).layer));
+    msg.nodes.push_back(factor.node(k).value);
+  }
   return msg;
 }
 
@@ -150,7 +154,7 @@ SituationalGraph toMsg(const GraphSnapshot& graph, const std::string& map_frame)
   msg.header.stamp = toRosTime(graph.stamp_s);
   msg.header.frame_id = map_frame;
   for (const KeyframeNode& node : graph.keyframes) msg.keyframes.push_back(toMsg(node));
-  for (const RelativePoseEdge& edge : graph.edges) msg.factors.push_back(toMsg(edge));
+  for (const StoredFactor& stored : graph.factors) msg.factors.push_back(toMsg(*stored.factor));
   return msg;
 }
 

@@ -134,7 +134,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
     }
     status.add("jobs waiting", waiting);
     status.add("keyframes", graph ? graph->keyframes.size() : 0);
-    status.add("factors", graph ? graph->edges.size() : 0);
+    status.add("factors", graph ? graph->factors.size() : 0);
     const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
     if (!last_optimization_) return;
     status.add("last optimization", last_optimization_->kind);

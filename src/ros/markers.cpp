@@ -52,10 +52,12 @@ visualization_msgs::MarkerArray toMarkers(const GraphSnapshot& graph,
     places[node.id] = tf2::toMsg(Eigen::Vector3d(node.T_map_base.translation()));
     keyframes.points.push_back(places[node.id]);
   }
-  for (const RelativePoseEdge& edge : graph.edges) {
-    Marker& lines = edge.kind == RelativePoseEdge::Kind::kLoopClosure ? loops : odometry;
-    lines.points.push_back(places.at(edge.from));
-    lines.points.push_back(places.at(edge.to));
+  for (const StoredFactor& stored : graph.factors) {
+    const RelativePoseFactor* const edge = keyframeEdge(*stored.factor);
+    if (edge == nullptr) continue;
+    Marker& lines = edge->kind == RelativePoseFactor::Kind::kLoopClosure ? loops : odometry;
+    lines.points.push_back(places.at(KeyframeId{edge->node(0).value}));
+    lines.points.push_back(places.at(KeyframeId{edge->node(1).value}));
   }
 
   visualization_msgs::MarkerArray markers;

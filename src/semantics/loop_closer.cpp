@@ -48,7 +48,7 @@ struct LoopCloser::Candidate {
   double similarity = 0.0;
 };
 
-void LoopCloser::describe(const std::vector<KeyframeNode>& keyframes) {
+void LoopCloser::describe(const Keyframes& keyframes) {
   for (std::size_t i = contexts_.size(); i < keyframes.size(); ++i) {
     contexts_.emplace_back(*keyframes[i].cloud, levelRotation(keyframes[i]));
     const double step_m =
@@ -60,7 +60,7 @@ void LoopCloser::describe(const std::vector<KeyframeNode>& keyframes) {
 }
 
 std::vector<LoopCloser::Candidate> LoopCloser::candidates(
-    const std::vector<KeyframeNode>& keyframes, const std::vector<Matrix6>& uncertainty) const {
+    const Keyframes& keyframes, const std::vector<Matrix6>& uncertainty) const {
   const std::size_t newest = keyframes.size() - 1;
   std::vector<Candidate> near;
   for (std::size_t i = 0; i < newest && path_m_[newest] - path_m_[i] > config_.min_path_m; ++i) {
@@ -100,9 +100,9 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates(
   return chosen;
 }
 
-std::optional<RelativePoseEdge> LoopCloser::verify(const Candidate& candidate,
-                                                   const std::vector<KeyframeNode>& keyframes,
-                                                   const Matrix6& uncertainty) const {
+std::optional<LoopClosure> LoopCloser::verify(const Candidate& candidate,
+                                              const Keyframes& keyframes,
+                                              const Matrix6& uncertainty) const {
   const KeyframeNode& old = keyframes[candidate.index];
   const KeyframeNode& newest = keyframes.back();
 
@@ -142,25 +142,19 @@ std::optional<RelativePoseEdge> LoopCloser::verify(const Candidate& candidate,
   const Matrix6 gate = kGateInflation * uncertainty + covariance;
   if (surprise.dot(gate.ldlt().solve(surprise)) > config_.max_chi2) return std::nullopt;
 
-  RelativePoseEdge edge;
-  edge.from = old.id;
-  edge.to = newest.id;
-  edge.T_from_to = fit.estimate.T_map_base;
-  edge.information = covariance.inverse();
-  edge.kind = RelativePoseEdge::Kind::kLoopClosure;
-  return edge;
+  return LoopClosure{old.id, newest.id, fit.estimate.T_map_base, covariance.inverse()};
 }
 
-std::vector<RelativePoseEdge> LoopCloser::find(const std::vector<KeyframeNode>& keyframes,
-                                               const std::vector<RelativePoseEdge>& edges) {
+std::vector<LoopClosure> LoopCloser::find(const GraphSnapshot& graph) {
+  const Keyframes& keyframes = graph.keyframes;
   if (!config_.enabled || keyframes.empty()) return {};
   describe(keyframes);
   if (path_m_.back() - searched_at_m_ < config_.min_interval_m) return {};
   if (path_m_.back() < config_.min_path_m) return {};
   searched_at_m_ = path_m_.back();
 
-  const std::vector<Matrix6> uncertainty = uncertaintyToNewest(keyframes, edges);
-  std::vector<RelativePoseEdge> loops;
+  const std::vector<Matrix6> uncertainty = uncertaintyToNewest(graph);
+  std::vector<LoopClosure> loops;
   for (const Candidate& candidate : candidates(keyframes, uncertainty)) {
     const auto loop = verify(candidate, keyframes, uncertainty[candidate.index]);
     if (!loop) continue;

@@ -3,46 +3,58 @@
 
 #include "mrpt_sgraphs/slam/graph_slam.h"
 
+#include <map>
 #include <stdexcept>
+#include <string>
 
-#include "mrpt_sgraphs/graph/keyframe_graph.h"
+#include "mrpt_sgraphs/graph/situational_graph.h"
 
 namespace mrpt_sgraphs {
 
+struct GraphSlam::State {
+  State(const LoopCloserConfig& loops, const PoseGraphOptimizerConfig& solver)
+      : loop_closer(loops), solver(solver) {}
+
+  SituationalGraph graph;
+  LoopCloser loop_closer;
+  PoseGraphOptimizerConfig solver;
+};
+
 GraphSlam::GraphSlam(const LoopCloserConfig& loops, const PoseGraphOptimizerConfig& solver)
-    : graph_(std::make_unique<KeyframeGraph>()), loop_closer_(loops), solver_(solver) {}
+    : state_(std::make_unique<State>(loops, solver)) {}
 
 GraphSlam::~GraphSlam() = default;
 
 KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
+  using Kind = RelativePoseFactor::Kind;
   if (keyframe.cloud == nullptr || keyframe.cloud->empty()) {
     throw std::invalid_argument("a keyframe needs a cloud");
   }
-  const bool is_first = graph_->size() == 0;
-  std::optional<KeyframeNode> last;
-  if (!is_first) last = graph_->node(graph_->ids().back());
-  if (last && keyframe.stamp_s <= last->stamp_s) {
+  SituationalGraph& graph = state_->graph;
+  const GraphSnapshotConstPtr before = graph.snapshot();
+  if (!before->keyframes.empty() && keyframe.stamp_s <= before->stamp_s) {
     throw std::invalid_argument("a keyframe of " + std::to_string(keyframe.stamp_s) +
                                 " s is not newer than the last one of " +
-                                std::to_string(last->stamp_s) + " s");
+                                std::to_string(before->stamp_s) + " s");
   }
 
+  KeyframeAttributes attributes;
+  attributes.stamp_s = keyframe.stamp_s;
+  attributes.T_odom_base = keyframe.T_odom_base;
+  attributes.cloud = keyframe.cloud;
   KeyframeOutcome outcome;
-  outcome.id = graph_->add(keyframe.stamp_s, T_map_odom_ * keyframe.T_odom_base,
-                           keyframe.T_odom_base, keyframe.cloud);
-  if (last) {
-    RelativePoseEdge edge;
-    edge.from = last->id;
-    edge.to = outcome.id;
-    edge.T_from_to = last->T_odom_base.inverse() * keyframe.T_odom_base;
-    edge.information = keyframe.covariance.inverse();
-    graph_->add(edge);
+  outcome.id = graph.addKeyframe(graph.T_map_odom() * keyframe.T_odom_base, attributes);
+  if (!before->keyframes.empty()) {
+    const KeyframeNode& last = before->keyframes.back();
+    graph.addFactor(std::make_shared<RelativePoseFactor>(
+        last.id, outcome.id, last.T_odom_base.inverse() * keyframe.T_odom_base,
+        keyframe.covariance.inverse(), Kind::kOdometry));
   }
-  snapshot_.reset();
 
-  const GraphSnapshotConstPtr now = snapshot();
-  for (const RelativePoseEdge& loop : loop_closer_.find(now->keyframes, now->edges)) {
-    graph_->add(loop);
+  const RobustKernel doubt{RobustKernel::Kind::kCauchy, state_->solver.loop_kernel_chi2};
+  for (const LoopClosure& loop : state_->loop_closer.find(*graph.snapshot())) {
+    graph.addFactor(std::make_shared<RelativePoseFactor>(
+        loop.from, loop.to, loop.T_from_to, loop.information, Kind::kLoopClosure, doubt));
     ++outcome.loop_closures;
   }
   if (outcome.loop_closures > 0) outcome.optimization = optimize();
@@ -50,34 +62,37 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
 }
 
 OptimizationSummary GraphSlam::optimize() {
+  SituationalGraph& graph = state_->graph;
+  const GraphSnapshotConstPtr now = graph.snapshot();
   std::map<KeyframeId, Pose> poses;
-  for (const KeyframeId id : graph_->ids()) poses[id] = graph_->pose(id);
+  for (const KeyframeNode& keyframe : now->keyframes) poses[keyframe.id] = keyframe.T_map_base;
   std::vector<RelativePoseEdge> edges;
-  for (std::size_t k = 0; k < graph_->edgeCount(); ++k) edges.push_back(graph_->edge(k));
+  for (const StoredFactor& stored : now->factors) {
+    const RelativePoseFactor* const factor = keyframeEdge(*stored.factor);
+    if (factor == nullptr) continue;
+    RelativePoseEdge edge;
+    edge.from = KeyframeId{factor->node(0).value};
+    edge.to = KeyframeId{factor->node(1).value};
+    edge.T_from_to = factor->T_from_to;
+    edge.information = factor->information();
+    if (factor->kind == RelativePoseFactor::Kind::kLoopClosure) {
+      edge.kind = RelativePoseEdge::Kind::kLoopClosure;
+    }
+    edges.push_back(edge);
+  }
 
-  OptimizationSummary summary = optimizePoseGraph(edges, solver_, &poses);
-  for (const auto& [id, T_map_base] : poses) graph_->setPose(id, T_map_base);
+  OptimizationSummary summary = optimizePoseGraph(edges, state_->solver, &poses);
+  for (const auto& [id, T_map_base] : poses) graph.setPose(id, T_map_base);
   if (!poses.empty()) {
-    const KeyframeNode newest = graph_->node(poses.rbegin()->first);
-    T_map_odom_ = orthonormalized(newest.T_map_base * newest.T_odom_base.inverse());
+    const KeyframeNode& newest = now->keyframes.back();
+    graph.setMapOdom(orthonormalized(graph.pose(newest.id) * newest.T_odom_base.inverse()));
     summary.stamp_s = newest.stamp_s;
   }
-  snapshot_.reset();
   return summary;
 }
 
-GraphSnapshotConstPtr GraphSlam::snapshot() const {
-  if (snapshot_ == nullptr) {
-    auto snapshot = std::make_shared<GraphSnapshot>();
-    snapshot->T_map_odom = T_map_odom_;
-    for (const KeyframeId id : graph_->ids()) snapshot->keyframes.push_back(graph_->node(id));
-    for (std::size_t k = 0; k < graph_->edgeCount(); ++k) {
-      snapshot->edges.push_back(graph_->edge(k));
-    }
-    if (!snapshot->keyframes.empty()) snapshot->stamp_s = snapshot->keyframes.back().stamp_s;
-    snapshot_ = snapshot;
-  }
-  return snapshot_;
-}
+GraphSnapshotConstPtr GraphSlam::snapshot() const { return state_->graph.snapshot(); }
+
+const Pose& GraphSlam::T_map_odom() const { return state_->graph.T_map_odom(); }
 
 }  // namespace mrpt_sgraphs

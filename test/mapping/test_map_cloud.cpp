@@ -35,8 +35,8 @@ TEST(MapCloud, KeepsOnePointAVoxelOfWhatBothSee) {
 
 TEST(MapCloud, FollowsThePoses) {
   GraphSnapshot graph = twoViews();
-  graph.keyframes.resize(1);
-  graph.keyframes[0].T_map_base.translation().z() = 7.0;
+  graph.keyframes.pop_back();
+  graph.keyframes.edit(0).T_map_base.translation().z() = 7.0;
   for (const Point& point : *mapCloud(graph, 0.1)) EXPECT_NEAR(point.z, 7.05F, 1e-5);
 }
 

@@ -92,8 +92,12 @@ TEST(MapCloudLaws, MovesWithTheMap) {
 TEST(MapCloudLaws, OfNothingIsNothing) {
   EXPECT_TRUE(mapCloud({}, 0.1)->empty());
   GraphSnapshot graph = scattered();
-  for (KeyframeNode& keyframe : graph.keyframes) keyframe.cloud.reset(new Cloud);
+  for (std::size_t k = 0; k < graph.keyframes.size(); ++k) {
+    graph.keyframes.edit(k).cloud.reset(new Cloud);
+  }
   EXPECT_TRUE(mapCloud(graph, 0.1)->empty());
+  for (std::size_t k = 0; k < graph.keyframes.size(); ++k) graph.keyframes.edit(k).cloud.reset();
+  EXPECT_TRUE(mapCloud(graph, 0.1)->empty()) << "of keyframes without clouds as well";
 }
 
 }  // namespace

@@ -22,12 +22,21 @@ GraphSnapshot threeKeyframes() {
   graph.stamp_s = 1600000000.3;
   for (std::uint64_t i = 0; i < 3; ++i) {
     const double x = static_cast<double>(i);
-    graph.keyframes.push_back({{i}, 1600000000.0 + 0.1 * x, somePose(x), somePose(x), nullptr});
+    KeyframeNode keyframe;
+    keyframe.id = KeyframeId{i};
+    keyframe.stamp_s = 1600000000.0 + 0.1 * x;
+    keyframe.T_map_base = keyframe.T_odom_base = somePose(x);
+    graph.keyframes.push_back(keyframe);
   }
-  graph.edges.push_back({{0}, {1}, Pose::Identity(), Matrix6::Identity()});
-  graph.edges.push_back({{1}, {2}, Pose::Identity(), Matrix6::Identity()});
-  graph.edges.push_back(
-      {{0}, {2}, Pose::Identity(), Matrix6::Identity(), RelativePoseEdge::Kind::kLoopClosure});
+  const auto add = [&graph](std::uint64_t from, std::uint64_t to, RelativePoseFactor::Kind kind) {
+    graph.factors.push_back(
+        {FactorId{graph.factors.size()},
+         std::make_shared<RelativePoseFactor>(KeyframeId{from}, KeyframeId{to}, Pose::Identity(),
+                                              Matrix6::Identity(), kind)});
+  };
+  add(0, 1, RelativePoseFactor::Kind::kOdometry);
+  add(1, 2, RelativePoseFactor::Kind::kOdometry);
+  add(0, 2, RelativePoseFactor::Kind::kLoopClosure);
   return graph;
 }
 

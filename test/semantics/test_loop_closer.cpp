@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "keyframes_of_a_walk.h"
+#include "mrpt_sgraphs/graph/situational_graph.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -12,38 +13,32 @@ namespace {
 using test::KeyframeWithTruth;
 using test::WalkErrors;
 
-/// The graph that a walk makes, without any loop in it.
-struct Chain {
-  std::vector<KeyframeNode> keyframes;
-  std::vector<RelativePoseEdge> edges;
-
-  void add(const Keyframe& keyframe) {
-    const KeyframeId id{keyframes.size()};
-    if (!keyframes.empty()) {
-      RelativePoseEdge edge;
-      edge.from = keyframes.back().id;
-      edge.to = id;
-      edge.T_from_to = keyframes.back().T_odom_base.inverse() * keyframe.T_odom_base;
-      edge.information = keyframe.covariance.inverse();
-      edges.push_back(edge);
-    }
-    keyframes.push_back(
-        {id, keyframe.stamp_s, keyframe.T_odom_base, keyframe.T_odom_base, keyframe.cloud});
-  }
-};
+/// Adds to the graph that a walk makes, without any loop in it.
+void add(const Keyframe& keyframe, SituationalGraph* graph) {
+  KeyframeAttributes attributes;
+  attributes.stamp_s = keyframe.stamp_s;
+  attributes.T_odom_base = keyframe.T_odom_base;
+  attributes.cloud = keyframe.cloud;
+  const KeyframeId id = graph->addKeyframe(keyframe.T_odom_base, attributes);
+  if (id.value == 0) return;
+  const KeyframeId last{id.value - 1};
+  graph->addFactor(std::make_shared<RelativePoseFactor>(
+      last, id, graph->pose(last).inverse() * keyframe.T_odom_base,
+      keyframe.covariance.inverse()));
+}
 
 /// The loops that are found when the keyframes come one by one.
-std::vector<RelativePoseEdge> loopsOf(const std::vector<KeyframeWithTruth>& walk,
-                                      const LoopCloserConfig& config = {}) {
+std::vector<LoopClosure> loopsOf(const std::vector<KeyframeWithTruth>& walk,
+                                 const LoopCloserConfig& config = {}) {
   LoopCloser closer(config);
-  Chain chain;
-  std::vector<RelativePoseEdge> loops;
+  SituationalGraph graph;
+  std::vector<LoopClosure> loops;
   for (const KeyframeWithTruth& step : walk) {
-    chain.add(step.keyframe);
-    for (const RelativePoseEdge& loop : closer.find(chain.keyframes, chain.edges)) {
-      EXPECT_EQ(loop.to, chain.keyframes.back().id);
+    add(step.keyframe, &graph);
+    const GraphSnapshotConstPtr now = graph.snapshot();
+    for (const LoopClosure& loop : closer.find(*now)) {
+      EXPECT_EQ(loop.to, now->keyframes.back().id);
       EXPECT_LT(loop.from, loop.to);
-      EXPECT_EQ(loop.kind, RelativePoseEdge::Kind::kLoopClosure);
       loops.push_back(loop);
     }
   }
@@ -67,7 +62,7 @@ TEST_F(LoopCloserTest, FindsReturnsAndMeasuresThem) {
     const auto walk = round(errors);
     const auto loops = loopsOf(walk);
     EXPECT_GE(loops.size(), 2U);
-    for (const RelativePoseEdge& loop : loops) {
+    for (const LoopClosure& loop : loops) {
       const Pose T_from_to = walk[loop.from.value].T_map_base.inverse() *
                              walk[loop.to.value].T_map_base;
       const Tangent error = local(T_from_to, loop.T_from_to);
@@ -82,7 +77,7 @@ TEST_F(LoopCloserTest, FindsReturnsAndMeasuresThem) {
 TEST_F(LoopCloserTest, LeavesNeighboursAlone) {
   const auto walk = round();
   LoopCloserConfig config;
-  for (const RelativePoseEdge& loop : loopsOf(walk, config)) {
+  for (const LoopClosure& loop : loopsOf(walk, config)) {
     double way_m = 0.0;
     for (std::size_t k = loop.from.value; k < loop.to.value; ++k) {
       way_m += (walk[k + 1].T_map_base.translation() - walk[k].T_map_base.translation()).norm();
@@ -110,7 +105,7 @@ TEST_F(LoopCloserTest, DoesNothingWhenItIsOff) {
   LoopCloserConfig config;
   config.enabled = false;
   EXPECT_TRUE(loopsOf(round(), config).empty());
-  EXPECT_TRUE(LoopCloser({}).find({}, {}).empty());
+  EXPECT_TRUE(LoopCloser({}).find({}).empty());
 }
 
 /// A robot that leaves the west room and comes to one that looks exactly the same.

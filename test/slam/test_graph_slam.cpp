@@ -31,9 +31,11 @@ TEST(GraphSlam, ChainsKeyframesByOdometry) {
   slam.addKeyframe(keyframeAt(2.0, 1.0));
   const GraphSnapshotConstPtr graph = slam.snapshot();
   ASSERT_EQ(graph->keyframes.size(), 2U);
-  ASSERT_EQ(graph->edges.size(), 1U);
-  EXPECT_NEAR(graph->edges[0].T_from_to.translation().x(), 1.0, 1e-12);
-  EXPECT_NEAR(graph->edges[0].information(0, 0), 1e4, 1e-6);
+  ASSERT_EQ(graph->factors.size(), 1U);
+  const RelativePoseFactor* const edge = keyframeEdge(*graph->factors[0].factor);
+  ASSERT_NE(edge, nullptr);
+  EXPECT_NEAR(edge->T_from_to.translation().x(), 1.0, 1e-12);
+  EXPECT_NEAR(edge->information()(0, 0), 1e4, 1e-6);
   EXPECT_TRUE(slam.T_map_odom().isApprox(Pose::Identity()));
 }
 

@@ -56,7 +56,7 @@ TEST_F(GraphSlamOnAWalk, ClosesTheLoopThatOdometryLeavesOpen) {
   const GraphSnapshotConstPtr graph = slam_.snapshot();
   EXPECT_GT(loops, 0);
   EXPECT_EQ(graph->keyframes.size(), drifting_->size());
-  EXPECT_EQ(graph->edges.size(), drifting_->size() - 1 + static_cast<std::size_t>(loops));
+  EXPECT_EQ(graph->factors.size(), drifting_->size() - 1 + static_cast<std::size_t>(loops));
   EXPECT_LT(finalError(*graph, *drifting_), 0.05);
   // the first keyframe stays where it was
   EXPECT_LT(local(graph->keyframes[0].T_map_base, drifting_->front().keyframe.T_odom_base).norm(),
@@ -90,14 +90,21 @@ TEST_F(GraphSlamOnAWalk, DriftIsThatOfTheNewestKeyframe) {
 TEST_F(GraphSlamOnAWalk, OdometryEdgesAreAsMeasured) {
   for (const KeyframeWithTruth& step : *drifting_) slam_.addKeyframe(step.keyframe);
   std::size_t k = 0;
-  for (const RelativePoseEdge& edge : slam_.snapshot()->edges) {
-    if (edge.kind != RelativePoseEdge::Kind::kOdometry) continue;
+  const GraphSnapshotConstPtr graph = slam_.snapshot();
+  for (const StoredFactor& stored : graph->factors) {
+    const RelativePoseFactor& edge = *keyframeEdge(*stored.factor);
+    if (edge.kind == RelativePoseFactor::Kind::kLoopClosure) {
+      EXPECT_EQ(edge.kernel().kind, RobustKernel::Kind::kCauchy);
+      EXPECT_EQ(edge.kernel().width_chi2, PoseGraphOptimizerConfig().loop_kernel_chi2);
+      continue;
+    }
+    EXPECT_EQ(edge.kernel().kind, RobustKernel::Kind::kNone);
     const Keyframe& from = (*drifting_)[k].keyframe;
     const Keyframe& to = (*drifting_)[k + 1].keyframe;
-    EXPECT_EQ(edge.from, KeyframeId{k});
-    EXPECT_EQ(edge.to, KeyframeId{k + 1});
+    EXPECT_EQ(edge.node(0), NodeId(KeyframeId{k}));
+    EXPECT_EQ(edge.node(1), NodeId(KeyframeId{k + 1}));
     EXPECT_LT(local(from.T_odom_base.inverse() * to.T_odom_base, edge.T_from_to).norm(), 1e-9);
-    EXPECT_TRUE(edge.information.isApprox(Matrix6(to.covariance.inverse()), 1e-9));
+    EXPECT_TRUE(edge.information().isApprox(Matrix6(to.covariance.inverse()), 1e-9));
     ++k;
   }
   EXPECT_EQ(k, drifting_->size() - 1);
@@ -130,7 +137,7 @@ TEST_F(GraphSlamOnAWalk, GoesOnAfterKeyframesThatItRefused) {
   EXPECT_THROW(slam_.addKeyframe(keyframe(1)), std::invalid_argument) << "of the same stamp";
   EXPECT_THROW(slam_.addKeyframe(keyframe(0)), std::invalid_argument) << "an older one";
   EXPECT_EQ(slam_.addKeyframe(keyframe(2)).id, KeyframeId{2});
-  EXPECT_EQ(slam_.snapshot()->edges.size(), 2U);
+  EXPECT_EQ(slam_.snapshot()->factors.size(), 2U);
 }
 
 TEST_F(GraphSlamOnAWalk, SameKeyframesSameGraph) {

@@ -40,7 +40,7 @@ TEST(ScanTrajectory, WithoutDriftIsTheOdometry) {
 
 TEST(ScanTrajectory, PassesThroughTheKeyframesAndSharesOutBetweenThem) {
   Walk walk;
-  walk.graph.keyframes[1].T_map_base.translation().y() = 0.2;
+  walk.graph.keyframes.edit(1).T_map_base.translation().y() = 0.2;
   const Trajectory corrected = walk.scans.corrected(walk.graph);
   EXPECT_NEAR(corrected[0].T_world_body.translation().y(), 0.0, 1e-12);
   EXPECT_NEAR(corrected[5].T_world_body.translation().y(), 0.1, 1e-9);
@@ -51,7 +51,8 @@ TEST(ScanTrajectory, PassesThroughTheKeyframesAndSharesOutBetweenThem) {
 TEST(ScanTrajectory, FollowsTheLastKeyframePastIt) {
   Walk walk;
   const Pose T_moved = test::RandomGeometry(8, 3.0).pose();
-  walk.graph.keyframes.back().T_map_base = T_moved * walk.graph.keyframes.back().T_odom_base;
+  KeyframeNode& last = walk.graph.keyframes.edit(walk.graph.keyframes.size() - 1);
+  last.T_map_base = T_moved * last.T_odom_base;
   const Trajectory corrected = walk.scans.corrected(walk.graph);
   EXPECT_TRUE(corrected.back().T_world_body.isApprox(
       T_moved * walk.scans.odometry().back().T_world_body, 1e-9));

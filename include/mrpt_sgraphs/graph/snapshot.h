@@ -3,41 +3,39 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
-#include "mrpt_sgraphs/geometry/point_cloud.h"
-#include "mrpt_sgraphs/geometry/ids.h"
-#include "mrpt_sgraphs/geometry/pose.h"
+#include "mrpt_sgraphs/factors/relative_pose.h"
+#include "mrpt_sgraphs/graph/nodes.h"
+#include "mrpt_sgraphs/graph/shared_vector.h"
 
 namespace mrpt_sgraphs {
 
-/// A node of the keyframes layer.
-struct KeyframeNode {
-  KeyframeId id;
-  double stamp_s = 0.0;
-  Pose T_map_base = Pose::Identity();
-  Pose T_odom_base = Pose::Identity();  ///< What odometry alone said.
-  Cloud::ConstPtr cloud;                ///< Base frame.
+/// A factor and its name.
+struct StoredFactor {
+  FactorId id;
+  FactorConstPtr factor;
 };
 
-/// A relative pose between two keyframes: T_from_to as measured, with the inverse covariance of its
-/// right perturbation, `[t; theta]`.
-struct RelativePoseEdge {
-  enum class Kind { kOdometry, kLoopClosure };
+/// The factor if it is a relative pose between two keyframes, an edge of the keyframes layer; null
+/// if it is something else.
+inline const RelativePoseFactor* keyframeEdge(const Factor& factor) {
+  const auto* edge = dynamic_cast<const RelativePoseFactor*>(&factor);
+  const bool between_keyframes = edge != nullptr && edge->node(0).layer == Layer::kKeyframe &&
+                                 edge->node(1).layer == Layer::kKeyframe;
+  return between_keyframes ? edge : nullptr;
+}
 
-  KeyframeId from;
-  KeyframeId to;
-  Pose T_from_to = Pose::Identity();
-  Matrix6 information = Matrix6::Identity();  ///< [1/m^2, 1/(m rad), 1/rad^2]
-  Kind kind = Kind::kOdometry;
-};
-
-/// The graph as it was at one moment; never changes, shared between threads.
+/// The graph as it was at one moment; never changes, shared between threads. What did not change
+/// from one to the next is one object in both.
 struct GraphSnapshot {
   double stamp_s = 0.0;  ///< Of the last keyframe.
   Pose T_map_odom = Pose::Identity();
-  std::vector<KeyframeNode> keyframes;  ///< In id order.
-  std::vector<RelativePoseEdge> edges;
+  SharedVector<KeyframeNode> keyframes;  ///< In the order in which they came, as the other layers.
+  SharedVector<WallNode> walls;
+  SharedVector<RoomNode> rooms;
+  SharedVector<FloorNode> floors;
+  SharedVector<StoredFactor>
+      factors;  ///< In the order in which they came as long as none was erased.
 };
 
 using GraphSnapshotConstPtr = std::shared_ptr<const GraphSnapshot>;

@@ -7,7 +7,7 @@
 
 namespace mrpt_sgraphs {
 
-/// The clouds of all keyframes at their poses, one point a voxel, in `map`. Every point
+/// The clouds of all keyframes that have one at their poses, one point a voxel, in `map`. Every point
 /// for a resolution of zero or less.
 Cloud::Ptr mapCloud(const GraphSnapshot& graph, double resolution_m);
 

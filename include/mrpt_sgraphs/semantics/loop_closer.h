@@ -48,6 +48,15 @@ struct LoopCloserConfig {
   }
 };
 
+/// A relative pose between two keyframes: T_from_to as measured, with the inverse covariance of its
+/// right perturbation, `[t; theta]`.
+struct LoopClosure {
+  KeyframeId from;
+  KeyframeId to;
+  Pose T_from_to = Pose::Identity();
+  Matrix6 information = Matrix6::Identity();  ///< [1/m^2, 1/(m rad), 1/rad^2]
+};
+
 /// Finds where the newest keyframe has been before.
 ///
 /// Candidates are old keyframes within a radius that grows with the uncertainty of the way between
@@ -59,21 +68,20 @@ class LoopCloser {
  public:
   explicit LoopCloser(const LoopCloserConfig& config) : config_(config) {}
 
-  /// @param keyframes  All of them in id order, the newest last; ids are consecutive.
-  /// @param edges      All between them.
+  /// @param graph  The keyframes of the last call and those that came after them, the newest last.
   /// @return The loops that passed, to be added to the graph.
-  std::vector<RelativePoseEdge> find(const std::vector<KeyframeNode>& keyframes,
-                                     const std::vector<RelativePoseEdge>& edges);
+  std::vector<LoopClosure> find(const GraphSnapshot& graph);
 
  private:
   struct Candidate;
 
-  void describe(const std::vector<KeyframeNode>& keyframes);
-  std::vector<Candidate> candidates(const std::vector<KeyframeNode>& keyframes,
+  using Keyframes = SharedVector<KeyframeNode>;
+
+  void describe(const Keyframes& keyframes);
+  std::vector<Candidate> candidates(const Keyframes& keyframes,
                                     const std::vector<Matrix6>& uncertainty) const;
-  std::optional<RelativePoseEdge> verify(const Candidate& candidate,
-                                         const std::vector<KeyframeNode>& keyframes,
-                                         const Matrix6& uncertainty) const;
+  std::optional<LoopClosure> verify(const Candidate& candidate, const Keyframes& keyframes,
+                                    const Matrix6& uncertainty) const;
 
   LoopCloserConfig config_;
   std::vector<ScanContext> contexts_;

@@ -14,12 +14,10 @@
 
 namespace mrpt_sgraphs {
 
-class KeyframeGraph;
-
 /// What adding a keyframe came to.
 struct KeyframeOutcome {
   KeyframeId id;
-  int loop_closures = 0;                           ///< Believed and added.
+  int loop_closures = 0;                            ///< Believed and added.
   std::optional<OptimizationSummary> optimization;  ///< Of the optimization that they caused.
 };
 
@@ -41,14 +39,12 @@ class GraphSlam {
   GraphSnapshotConstPtr snapshot() const;
 
   /// The drift that the graph has found, at the newest keyframe.
-  const Pose& T_map_odom() const { return T_map_odom_; }
+  const Pose& T_map_odom() const;
 
  private:
-  std::unique_ptr<KeyframeGraph> graph_;
-  LoopCloser loop_closer_;
-  PoseGraphOptimizerConfig solver_;
-  Pose T_map_odom_ = Pose::Identity();
-  mutable GraphSnapshotConstPtr snapshot_;  ///< Null after a change.
+  struct State;  ///< Not in the header: the graph has the name of a message.
+
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace mrpt_sgraphs

@@ -5,10 +5,23 @@
 #include <map>
 #include <vector>
 
-#include "mrpt_sgraphs/graph/snapshot.h"
+#include "mrpt_sgraphs/geometry/ids.h"
+#include "mrpt_sgraphs/geometry/pose.h"
 #include "mrpt_sgraphs/solver/optimization_summary.h"
 
 namespace mrpt_sgraphs {
+
+/// A relative pose between two keyframes: T_from_to as measured, with the inverse covariance of its
+/// right perturbation, `[t; theta]`.
+struct RelativePoseEdge {
+  enum class Kind { kOdometry, kLoopClosure };
+
+  KeyframeId from;
+  KeyframeId to;
+  Pose T_from_to = Pose::Identity();
+  Matrix6 information = Matrix6::Identity();  ///< [1/m^2, 1/(m rad), 1/rad^2]
+  Kind kind = Kind::kOdometry;
+};
 
 /// How the pose graph is optimized.
 struct PoseGraphOptimizerConfig {

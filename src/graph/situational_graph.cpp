@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mrpt_sgraphs/graph/situational_graph.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "factor_check.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+constexpr double kMaxError = 1e-6;  ///< Rounding errors that add up are smaller, mistakes larger.
+
+// written so that NaN is refused
+void requirePose(const Pose& T, NodeId node) {
+  const Eigen::Matrix3d R = T.linear();
+  const bool is_rotation =
+      (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < kMaxError && R.determinant() > 0.0;
+  if (!is_rotation || !T.translation().allFinite()) {
+    throw std::invalid_argument("the pose of " + nameOf(node) + " is none");
+  }
+}
+
+void requirePlane(const Plane& plane, NodeId node) {
+  const bool is_unit = std::abs(plane.normal.norm() - 1.0) < kMaxError;
+  if (!is_unit || !std::isfinite(plane.distance)) {
+    throw std::invalid_argument("the plane of " + nameOf(node) + " is none");
+  }
+}
+
+}  // namespace
+
+KeyframeId SituationalGraph::addKeyframe(const Pose& T_map_base,
+                                         const KeyframeAttributes& attributes) {
+  const KeyframeId id = keyframes_.nextId();
+  restoreKeyframe(id, T_map_base, attributes);
+  return id;
+}
+
+WallId SituationalGraph::addWall(const Plane& plane_map, const WallAttributes& attributes) {
+  const WallId id = walls_.nextId();
+  restoreWall(id, plane_map, attributes);
+  return id;
+}
+
+RoomId SituationalGraph::addRoom(const Pose& T_map_room, const RoomAttributes& attributes) {
+  const RoomId id = rooms_.nextId();
+  restoreRoom(id, T_map_room, attributes);
+  return id;
+}
+
+FloorId SituationalGraph::addFloor(const Plane& ground_map, const FloorAttributes& attributes) {
+  const FloorId id = floors_.nextId();
+  restoreFloor(id, ground_map, attributes);
+  return id;
+}
+
+void SituationalGraph::restoreKeyframe(KeyframeId id, const Pose& T_map_base,
+                                       const KeyframeAttributes& attributes) {
+  requirePose(T_map_base, id);
+  keyframes_.add({attributes, id, T_map_base});
+  network_.addNode(id, T_map_base);
+  topology_.addNode(Layer::kKeyframe);
+  is_moved_.push_back(false);
+  snapshot_.reset();
+}
+
+void SituationalGraph::restoreWall(WallId id, const Plane& plane_map,
+                                   const WallAttributes& attributes) {
+  requirePlane(plane_map, id);
+  walls_.add({attributes, id, plane_map});
+  topology_.addNode(Layer::kWall);
+  snapshot_.reset();
+}
+
+void SituationalGraph::restoreRoom(RoomId id, const Pose& T_map_room,
+                                   const RoomAttributes& attributes) {
+  requirePose(T_map_room, id);
+  rooms_.add({attributes, id, T_map_room});
+  topology_.addNode(Layer::kRoom);
+  snapshot_.reset();
+}
+
+void SituationalGraph::restoreFloor(FloorId id, const Plane& ground_map,
+                                    const FloorAttributes& attributes) {
+  requirePlane(ground_map, id);
+  floors_.add({attributes, id, ground_map});
+  topology_.addNode(Layer::kFloor);
+  snapshot_.reset();
+}
+
+void SituationalGraph::eraseNode(NodeId node) {
+  const NodeHandle place = handle(node);
+  while (!topology_.links(place).empty()) eraseFactor(topology_.links(place).back().id);
+  topology_.eraseNode(place);
+  switch (place.layer) {
+    case Layer::kKeyframe:
+      writeMovedPoses();  // while their places are what they were
+      is_moved_.pop_back();
+      network_.eraseNode(place.slot);
+      keyframes_.erase(place.slot);
+      break;
+    case Layer::kWall:
+      walls_.erase(place.slot);
+      break;
+    case Layer::kRoom:
+      rooms_.erase(place.slot);
+      break;
+    case Layer::kFloor:
+      floors_.erase(place.slot);
+      break;
+  }
+  snapshot_.reset();
+}
+
+FactorId SituationalGraph::addFactor(FactorConstPtr factor) {
+  const std::vector<NodeHandle> nodes = validated(factor);
+  const FactorId id{next_factor_++};
+  const RelativePoseFactor* const edge = keyframeEdge(*factor);
+  edges_.emplace_back();
+  if (edge != nullptr) edges_.back() = network_.addEdge(*edge);
+  factor_slots_[id] = static_cast<uint32_t>(factors_.size());
+  factors_.push_back({id, std::move(factor)});
+  topology_.addFactor(id, nodes);
+  snapshot_.reset();
+  return id;
+}
+
+void SituationalGraph::eraseFactor(FactorId id) {
+  const uint32_t slot = factorSlot(id);
+  if (edges_[slot]) network_.eraseEdge(*edges_[slot]);
+  topology_.eraseFactor(slot);
+  factor_slots_.erase(id);
+  const StoredFactor last = factors_.back();
+  if (last.id != id) {  // it takes the free place
+    factors_.edit(slot) = last;
+    edges_[slot] = edges_.back();
+    factor_slots_[last.id] = slot;
+  }
+  factors_.pop_back();
+  edges_.pop_back();
+  snapshot_.reset();
+}
+
+std::vector<NodeHandle> SituationalGraph::validated(const FactorConstPtr& factor) const {
+  if (factor == nullptr || factor->nodeCount() == 0) {
+    throw std::invalid_argument("a factor without nodes");
+  }
+  std::vector<NodeHandle> nodes;
+  for (int k = 0; k < factor->nodeCount(); ++k) {
+    if (!contains(factor->node(k))) {
+      throw std::invalid_argument(describe(*factor) + ": " + nameOf(factor->node(k)) +
+                                  " is not in the graph");
+    }
+    nodes.push_back(handle(factor->node(k)));
+  }
+  std::vector<Pose> poses(nodes.size());
+  std::vector<Plane> planes(nodes.size());
+  std::vector<VariableView> values;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (isPlane(nodes[k].layer)) {
+      planes[k] = plane(nodes[k]);
+      values.emplace_back(planes[k]);
+    } else {
+      poses[k] = pose(nodes[k]);
+      values.emplace_back(poses[k]);
+    }
+  }
+  requireSound(*factor, values.data());
+  return nodes;
+}
+
+bool SituationalGraph::contains(NodeId node) const {
+  switch (node.layer) {
+    case Layer::kKeyframe:
+      return keyframes_.contains(KeyframeId{node.value});
+    case Layer::kWall:
+      return walls_.contains(WallId{node.value});
+    case Layer::kRoom:
+      return rooms_.contains(RoomId{node.value});
+    case Layer::kFloor:
+      return floors_.contains(FloorId{node.value});
+  }
+  return false;
+}
+
+void SituationalGraph::setMapOdom(const Pose& T_map_odom) {
+  T_map_odom_ = T_map_odom;
+  snapshot_.reset();
+}
+
+void SituationalGraph::setAttributes(KeyframeId id, const KeyframeAttributes& attributes) {
+  static_cast<KeyframeAttributes&>(keyframes_.edit(slotOf(id))) = attributes;
+  snapshot_.reset();
+}
+
+void SituationalGraph::setAttributes(WallId id, const WallAttributes& attributes) {
+  static_cast<WallAttributes&>(walls_.edit(slotOf(id))) = attributes;
+  snapshot_.reset();
+}
+
+void SituationalGraph::setAttributes(RoomId id, const RoomAttributes& attributes) {
+  static_cast<RoomAttributes&>(rooms_.edit(slotOf(id))) = attributes;
+  snapshot_.reset();
+}
+
+void SituationalGraph::setAttributes(FloorId id, const FloorAttributes& attributes) {
+  static_cast<FloorAttributes&>(floors_.edit(slotOf(id))) = attributes;
+  snapshot_.reset();
+}
+
+std::size_t SituationalGraph::size(Layer layer) const {
+  switch (layer) {
+    case Layer::kKeyframe:
+      return keyframes_.size();
+    case Layer::kWall:
+      return walls_.size();
+    case Layer::kRoom:
+      return rooms_.size();
+    case Layer::kFloor:
+      return floors_.size();
+  }
+  return 0;
+}
+
+NodeHandle SituationalGraph::handle(NodeId node) const {
+  switch (node.layer) {
+    case Layer::kKeyframe:
+      return {node.layer, slotOf(KeyframeId{node.value})};
+    case Layer::kWall:
+      return {node.layer, slotOf(WallId{node.value})};
+    case Layer::kRoom:
+      return {node.layer, slotOf(RoomId{node.value})};
+    case Layer::kFloor:
+      break;
+  }
+  return {node.layer, slotOf(FloorId{node.value})};
+}
+
+NodeId SituationalGraph::nodeAt(NodeHandle node) const {
+  switch (node.layer) {
+    case Layer::kKeyframe:
+      return keyframes_[node.slot].id;
+    case Layer::kWall:
+      return walls_[node.slot].id;
+    case Layer::kRoom:
+      return rooms_[node.slot].id;
+    case Layer::kFloor:
+      break;
+  }
+  return floors_[node.slot].id;
+}
+
+Pose SituationalGraph::pose(NodeHandle node) const {
+  return node.layer == Layer::kKeyframe ? network_.pose(node.slot) : rooms_[node.slot].T_map_room;
+}
+
+Plane SituationalGraph::plane(NodeHandle node) const {
+  return node.layer == Layer::kWall ? walls_[node.slot].plane_map : floors_[node.slot].ground_map;
+}
+
+void SituationalGraph::setPose(NodeHandle node, const Pose& T) {
+  requirePose(T, nodeAt(node));
+  if (node.layer == Layer::kKeyframe) {
+    network_.setPose(node.slot, T);
+    markMoved(node.slot);
+  } else {
+    rooms_.edit(node.slot).T_map_room = T;
+  }
+  snapshot_.reset();
+}
+
+void SituationalGraph::setPlane(NodeHandle node, const Plane& plane) {
+  requirePlane(plane, nodeAt(node));
+  Plane& place = node.layer == Layer::kWall ? walls_.edit(node.slot).plane_map
+                                            : floors_.edit(node.slot).ground_map;
+  place = plane;
+  snapshot_.reset();
+}
+
+GraphSnapshotConstPtr SituationalGraph::snapshot() const {
+  if (snapshot_ != nullptr) return snapshot_;
+  writeMovedPoses();
+  auto snapshot = std::make_shared<GraphSnapshot>();
+  snapshot->T_map_odom = T_map_odom_;
+  snapshot->keyframes = keyframes_.nodes();
+  snapshot->walls = walls_.nodes();
+  snapshot->rooms = rooms_.nodes();
+  snapshot->floors = floors_.nodes();
+  snapshot->factors = factors_;
+  if (keyframes_.size() > 0) snapshot->stamp_s = keyframes_.nodes().back().stamp_s;
+  snapshot_ = std::move(snapshot);
+  return snapshot_;
+}
+
+uint32_t SituationalGraph::factorSlot(FactorId id) const {
+  const auto found = factor_slots_.find(id);
+  if (found == factor_slots_.end()) {
+    throw std::out_of_range("factor " + std::to_string(id.value) + " is not in the graph");
+  }
+  return found->second;
+}
+
+void SituationalGraph::markMoved(uint32_t keyframe) {
+  if (is_moved_[keyframe]) return;
+  is_moved_[keyframe] = true;
+  moved_.push_back(keyframe);
+}
+
+void SituationalGraph::writeMovedPoses() const {
+  for (const uint32_t slot : moved_) {
+    keyframes_.edit(slot).T_map_base = network_.pose(slot);
+    is_moved_[slot] = false;
+  }
+  moved_.clear();
+}
+
+}  // namespace mrpt_sgraphs
