@@ -22,17 +22,6 @@ Pose fromMrpt(const mrpt::poses::CPose3D& pose) {
 
 }  // namespace
 
-Matrix6 permutedInformation(const Matrix6& information) {
-  constexpr int kOrder[6] = {0, 1, 2, 5, 4, 3};
-  Matrix6 permuted;
-  for (int row = 0; row < 6; ++row) {
-    for (int column = 0; column < 6; ++column) {
-      permuted(row, column) = information(kOrder[row], kOrder[column]);
-    }
-  }
-  return permuted;
-}
-
 KeyframeId KeyframeGraph::add(double stamp_s, const Pose& T_map_base, const Pose& T_odom_base,
                               const Cloud::ConstPtr& cloud) {
   const KeyframeId id{next_id_++};

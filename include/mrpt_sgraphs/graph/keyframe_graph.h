@@ -8,14 +8,10 @@
 #include <map>
 #include <vector>
 
+#include "mrpt_sgraphs/graph/mrpt_information.h"
 #include "mrpt_sgraphs/graph/snapshot.h"
 
 namespace mrpt_sgraphs {
-
-/// MRPT keeps information in the order x y z yaw pitch roll; ours is that of the tangent, x y z and
-/// rotation about x y z. Its optimizer multiplies the former with the latter, so the permutation is
-/// what makes it do the right thing; it is exact near identity and its own inverse.
-Matrix6 permutedInformation(const Matrix6& information);
 
 /// The keyframes layer: an MRPT network of poses, and beside it what MRPT has no place for.
 class KeyframeGraph {
