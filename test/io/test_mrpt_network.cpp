@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "mrpt_networks.h"
+#include "support/mrpt_networks.h"
 #include "mrpt_sgraphs/io/mrpt_network.h"
 #include "temporary_folder.h"
 
