@@ -35,17 +35,15 @@ class MrptOptimizerAdapter final
 
   /// Reads from the sections that CLevMarqGSO reads from: `[OptimizerParameters]` the fields of
   /// OptimizerConfig, `optimization_distance` and `information` (yaw_pitch_roll, permuted or
-  /// tangent),
-  /// `[GeneralConfiguration]` `LC_min_nodeid_diff`. What is not given keeps its value; other keys
-  /// are those of others.
+  /// tangent), `[GeneralConfiguration]` `LC_min_nodeid_diff`. What is not given keeps its value;
+  /// other keys are those of others.
   /// @throws std::invalid_argument naming the file, or key, value and range. Nothing is changed
-  /// then.
+  ///         then.
   void loadParams(const std::string& source_fname) override;
   void printParams() const override;
 
   /// @return  Whether the network is optimal now, or had nothing new. The caller holds the lock of
-  /// the
-  ///          network, as for all of MRPT's optimizers; what was measured is not looked at.
+  ///          the network, as for all of MRPT's optimizers; what was measured is not looked at.
   /// @throws  as optimizeGraph
   bool updateState(mrpt::obs::CActionCollection::Ptr action,
                    mrpt::obs::CSensoryFrame::Ptr observations,

@@ -15,8 +15,7 @@ enum class MrptInformation {
   /// What a CPose3DPDFGaussianInf means: x y z yaw pitch roll, converted at the edge's mean.
   kYawPitchRoll,
   /// The same as if the mean were near identity: yaw and roll exchanged, nothing else. What a g2o
-  /// file
-  /// had in it that MRPT has read.
+  /// file had in it that MRPT has read.
   kPermuted,
   /// As it stands for `[t; theta]`: what MRPT's optimizer makes of it, yaw taken for roll.
   kTangent,
@@ -31,9 +30,8 @@ double networkCost(const MrptNetwork& network,
 /// minimum (test/mrpt shows where that one stops short).
 ///
 /// @param nodes_to_optimize  As MRPT has it: the others stay, to the last bit; all but the root
-/// where
-///                           null. Edges between nodes that stay are left out of the report's
-///                           costs.
+///                           where null. Edges between nodes that stay are left out of the
+///                           report's costs.
 /// @throws std::invalid_argument naming what is wrong with the network (see faultOf), an edge whose
 ///         information is not positive semidefinite, or a node to optimize that is not there.
 OptimizerReport optimizeNetwork(const OptimizerConfig& config, MrptNetwork* network,

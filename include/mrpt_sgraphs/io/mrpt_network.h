@@ -39,15 +39,13 @@ MrptTextFile readMrptText(const std::string& path);
 /// back as they were, rotations to rounding error also where yaw and roll turn about one axis.
 ///
 /// @throws std::invalid_argument with the network's fault (see faultOf), or if its edges store
-/// inverse
-///         poses, which the format cannot say.
+///         inverse poses, which the format cannot say.
 /// @throws std::runtime_error naming the file that could not be written.
 void writeMrptText(const std::string& path, const MrptNetwork& network);
 
 /// Reads what MRPT's `archive << network` wrote.
 /// @throws std::runtime_error naming the file and the reason if it is anything else, damaged or not
-/// a
-///         graph of poses (see faultOf).
+///         a graph of poses (see faultOf).
 MrptNetwork readMrptBinary(const std::string& path);
 
 /// Writes MRPT's binary serialization, exact to the last bit.
