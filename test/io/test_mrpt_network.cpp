@@ -6,8 +6,8 @@
 
 #include <limits>
 
-#include "support/mrpt_networks.h"
 #include "mrpt_sgraphs/io/mrpt_network.h"
+#include "support/mrpt_networks.h"
 #include "temporary_folder.h"
 
 namespace mrpt_sgraphs {
