@@ -23,8 +23,8 @@ class Problem {
   int addVariable(NodeId node, const Plane& value, bool fixed = false);
 
   /// @param variables  The index of each of the factor's nodes, in their order.
-  /// @throws std::invalid_argument for an index that is none, or of another type than the factor's
-  ///         node.
+  /// @throws std::invalid_argument for an index that is none, that comes twice, or of another type
+  ///         than the factor's node.
   void addFactor(const Factor& factor, const int* variables);
 
   int variableCount() const { return static_cast<int>(variables_.size()); }

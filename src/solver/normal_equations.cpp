@@ -1,0 +1,466 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "normal_equations.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <thread>
+
+#include "mrpt_sgraphs/geometry/cpu_time.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Of so many fronts one has its time taken; of the first ones each.
+constexpr int kSampledFronts = 16;
+
+/// Less than this share of a diagonal entry left as its pivot is what rounding leaves of nothing. A
+/// chain of 50 000 keyframes held at one end keeps about 1e-13.
+constexpr double kMinPivotShare = 1e-14;
+/// More than this share below zero is not rounding but a factor that rewards what it should punish.
+constexpr double kIndefiniteShare = 1e-9;
+
+/// Free variables numbered, and which of them share a factor.
+VariableGraph variableGraph(const Problem& problem, const std::vector<int>& number,
+                            const std::vector<int>& free_variables) {
+  VariableGraph graph;
+  for (const int variable : free_variables) graph.sizes.push_back(problem.tangentSizeOf(variable));
+  const std::size_t count = free_variables.size();
+
+  std::vector<int> degree(count + 1, 0);
+  const auto forEachPair = [&](auto&& visit) {
+    for (int f = 0; f < problem.factorCount(); ++f) {
+      const int* variables = problem.variablesOf(f);
+      const int nodes = problem.factor(f).nodeCount();
+      for (int a = 0; a < nodes; ++a) {
+        const int from = number[variables[a]];
+        if (from < 0) continue;
+        for (int b = 0; b < nodes; ++b) {
+          const int to = number[variables[b]];
+          if (to >= 0 && to != from) visit(from, to);
+        }
+      }
+    }
+  };
+  forEachPair([&](int from, int) { ++degree[from]; });
+  std::vector<int> begin(count + 1, 0);
+  for (std::size_t k = 0; k < count; ++k) begin[k + 1] = begin[k] + degree[k];
+  std::vector<int> all(static_cast<std::size_t>(begin[count]));
+  std::vector<int> next(begin.begin(), begin.end() - 1);
+  forEachPair([&](int from, int to) { all[next[from]++] = to; });
+
+  // each neighbour once
+  graph.first.push_back(0);
+  graph.neighbours.reserve(all.size());
+  std::vector<int> seen(count, -1);
+  for (int k = 0; k < static_cast<int>(count); ++k) {
+    for (int e = begin[k]; e < begin[k + 1]; ++e) {
+      if (seen[all[e]] == k) continue;
+      seen[all[e]] = k;
+      graph.neighbours.push_back(all[e]);
+    }
+    graph.first.push_back(static_cast<int>(graph.neighbours.size()));
+  }
+  return graph;
+}
+
+/// Everything that the plan depends on.
+std::vector<int> structureOf(const Problem& problem) {
+  std::vector<int> structure;
+  structure.reserve(static_cast<std::size_t>(problem.variableCount() + 4 * problem.factorCount()));
+  for (int v = 0; v < problem.variableCount(); ++v) {
+    structure.push_back(problem.isFixed(v) ? 0 : problem.tangentSizeOf(v));
+  }
+  for (int f = 0; f < problem.factorCount(); ++f) {
+    const int nodes = problem.factor(f).nodeCount();
+    structure.push_back(nodes);
+    structure.insert(structure.end(), problem.variablesOf(f), problem.variablesOf(f) + nodes);
+  }
+  return structure;
+}
+
+/// target(row.., column..) += block, both column-major.
+template <int Rows, int Columns>
+void addBlock(const double* block, int block_ld, double* target, int target_ld) {
+  for (int c = 0; c < Columns; ++c) {
+    for (int r = 0; r < Rows; ++r) target[c * target_ld + r] += block[c * block_ld + r];
+  }
+}
+template <int Rows, int Columns>
+void addTransposed(const double* block, int block_ld, double* target, int target_ld) {
+  for (int c = 0; c < Columns; ++c) {
+    for (int r = 0; r < Rows; ++r) target[c * target_ld + r] += block[r * block_ld + c];
+  }
+}
+using Adder = void (*)(const double*, int, double*, int);
+/// By rows and columns being those of a pose or a plane.
+constexpr Adder kAdders[2][2] = {{addBlock<3, 3>, addBlock<3, 6>}, {addBlock<6, 3>, addBlock<6, 6>}};
+constexpr Adder kTransposedAdders[2][2] = {{addTransposed<3, 3>, addTransposed<3, 6>},
+                                           {addTransposed<6, 3>, addTransposed<6, 6>}};
+
+}  // namespace
+
+/// What one thread needs for itself.
+struct NormalEquations::Worker {
+  std::vector<double> hessian;
+  std::vector<double> gradient;
+  std::vector<VariableView> views;
+  std::vector<double> min_pivots;
+  std::vector<LostPivot> lost;
+  EliminationScratch scratch;
+  std::vector<int> held;
+  bool indefinite = false;
+  double cpu_ms = 0.0;
+  double sampled_s = 0.0;            ///< In some of the fronts, since clocks cost time as well:
+  double sampled_linearize_s = 0.0;  ///< ... altogether and for linearizing alone.
+};
+
+NormalEquations::NormalEquations(const Problem& problem) : structure_(structureOf(problem)) {
+  std::vector<int> number(static_cast<std::size_t>(problem.variableCount()), -1);
+  for (int v = 0; v < problem.variableCount(); ++v) {
+    if (problem.isFixed(v)) continue;
+    number[v] = static_cast<int>(free_variables_.size());
+    free_variables_.push_back(v);
+  }
+  plan_ = planElimination(variableGraph(problem, number, free_variables_));
+
+  std::vector<int> position(number.size(), -1);  // of the problem's variables in the order
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] >= 0) position[v] = plan_.position[number[v]];
+  }
+  std::vector<int> ordered(free_variables_.size());
+  for (std::size_t k = 0; k < ordered.size(); ++k) ordered[k] = free_variables_[plan_.order[k]];
+  free_variables_ = std::move(ordered);
+
+  assignFactors(problem);
+  panels_.resize(plan_.panel_memory);
+  updates_.resize(plan_.update_memory);
+  diagonal_.resize(static_cast<std::size_t>(tangents()));
+  front_cost_.resize(plan_.fronts.size());
+  front_decrease_.resize(plan_.fronts.size());
+}
+
+bool NormalEquations::fits(const Problem& problem) const {
+  return structureOf(problem) == structure_;
+}
+
+void NormalEquations::assignFactors(const Problem& problem) {
+  std::vector<int> position(static_cast<std::size_t>(problem.variableCount()), -1);
+  for (std::size_t k = 0; k < free_variables_.size(); ++k) {
+    position[free_variables_[k]] = static_cast<int>(k);
+  }
+  // The front of a factor eliminates its first free variable; the others are among its rows.
+  const int fronts = static_cast<int>(plan_.fronts.size());
+  std::vector<int> front_of(static_cast<std::size_t>(problem.factorCount()));
+  first_factor_.assign(static_cast<std::size_t>(fronts) + 2, 0);
+  for (int f = 0; f < problem.factorCount(); ++f) {
+    int first = -1;
+    for (int k = 0; k < problem.factor(f).nodeCount(); ++k) {
+      const int at = position[problem.variablesOf(f)[k]];
+      if (at >= 0 && (first < 0 || at < first)) first = at;
+    }
+    front_of[f] = first < 0 ? fronts : plan_.front_of[first];
+    ++first_factor_[front_of[f] + 1];
+  }
+  for (int f = 0; f <= fronts; ++f) first_factor_[f + 1] += first_factor_[f];
+  std::vector<int> next(first_factor_.begin(), first_factor_.end() - 1);
+  factor_order_.resize(front_of.size());
+  for (int f = 0; f < problem.factorCount(); ++f) factor_order_[next[front_of[f]]++] = f;
+
+  std::vector<int> row_of(static_cast<std::size_t>(tangents()));
+  int ends = 0;
+  for (const int f : factor_order_) ends += problem.factor(f).nodeCount();
+  ends_.reserve(static_cast<std::size_t>(ends));
+  factors_.reserve(factor_order_.size());
+  for (int index = 0; index <= fronts; ++index) {
+    if (index < fronts) {
+      const Front& front = plan_.fronts[index];
+      for (int k = 0; k < front.pivots; ++k) row_of[front.first_pivot + k] = k;
+      for (int k = 0; k < front.rows; ++k) row_of[plan_.rows[front.first_row + k]] = front.pivots + k;
+    }
+    for (int k = first_factor_[index]; k < first_factor_[index + 1]; ++k) {
+      const int f = factor_order_[k];
+      const int nodes = problem.factor(f).nodeCount();
+      BoundFactor bound;
+      bound.first_end = static_cast<int>(ends_.size());
+      bound.ends = nodes;
+      for (int n = 0; n < nodes; ++n) {
+        const int variable = problem.variablesOf(f)[n];
+        End end;
+        end.size = problem.tangentSizeOf(variable);
+        end.offset = position[variable] < 0 ? -1 : row_of[plan_.tangent[position[variable]]];
+        ends_.push_back(end);
+        bound.tangents += end.size;
+      }
+      max_tangents_ = std::max(max_tangents_, bound.tangents);
+      factors_.push_back(bound);
+    }
+  }
+}
+
+void NormalEquations::bind(const Problem& problem) {
+  for (std::size_t k = 0; k < factors_.size(); ++k) {
+    const int f = factor_order_[k];
+    factors_[k].factor = &problem.factor(f);
+    for (int n = 0; n < factors_[k].ends; ++n) {
+      ends_[factors_[k].first_end + n].view = problem.view(problem.variablesOf(f)[n]);
+    }
+  }
+}
+
+FrontView NormalEquations::viewOf(const Front& front) {
+  FrontView view;
+  view.panel = panels_.data() + front.panel;
+  view.update = updates_.data() + front.update;
+  view.pivots = front.pivots;
+  view.rows = front.rows;
+  return view;
+}
+
+void NormalEquations::assemble(int index, const FrontView& view, double* pivot_diagonal,
+                               double* row_diagonal, Worker* worker) {
+  const int p = view.pivots;
+  const int panel_ld = view.panelStride();
+  const int update_ld = view.updateStride();
+  const auto columnOf = [&](int column) {  // so that [row] is the entry
+    return column < p ? view.panel + static_cast<std::ptrdiff_t>(column) * panel_ld
+                      : view.update + static_cast<std::ptrdiff_t>(column - p) * update_ld - p;
+  };
+  double cost = 0.0;
+  double* const H = worker->hessian.data();
+  double* const g = worker->gradient.data();
+  for (int k = first_factor_[index]; k < first_factor_[index + 1]; ++k) {
+    const BoundFactor& bound = factors_[k];
+    const End* const ends = ends_.data() + bound.first_end;
+    for (int n = 0; n < bound.ends; ++n) worker->views[n] = ends[n].view;
+    cost += bound.factor->linearize(worker->views.data(), H, g);
+
+    int column = 0;  // in the factor's own H
+    for (int a = 0; a < bound.ends; column += ends[a].size, ++a) {
+      if (ends[a].offset < 0) continue;
+      double* const diagonal =
+          ends[a].offset < p ? pivot_diagonal + ends[a].offset : row_diagonal + ends[a].offset - p;
+      double* const target = columnOf(ends[a].offset);
+      const int ld = ends[a].offset < p ? panel_ld : update_ld;
+      for (int i = 0; i < ends[a].size; ++i) {
+        diagonal[i] += H[(column + i) * (bound.tangents + 1)];
+        target[i * ld + p + view.rows] -= g[column + i];
+      }
+      int row = column;
+      for (int b = a; b < bound.ends; row += ends[b].size, ++b) {
+        if (ends[b].offset < 0) continue;
+        const double* const block = H + column * bound.tangents + row;
+        if (ends[b].offset >= ends[a].offset) {
+          kAdders[ends[b].size / 6][ends[a].size / 6](block, bound.tangents,
+                                                      target + ends[b].offset, ld);
+        } else {
+          const bool in_panel = ends[b].offset < p;
+          kTransposedAdders[ends[a].size / 6][ends[b].size / 6](
+              block, bound.tangents, columnOf(ends[b].offset) + ends[a].offset,
+              in_panel ? panel_ld : update_ld);
+        }
+      }
+    }
+  }
+  front_cost_[index] = cost;
+}
+
+void NormalEquations::extendAdd(const Front& child, const Front& parent, const FrontView& view,
+                                double* pivot_diagonal, double* row_diagonal) {
+  const double* const update = updates_.data() + child.update;
+  const int child_ld = padded(child.rows + 1);
+  const double* const child_diagonal = update + FrontView::updateSize(child.rows);
+  const int p = view.pivots;
+  const RowRun* const runs = plan_.runs.data() + child.first_run;
+  for (int a = 0; a < child.runs; ++a) {
+    for (int i = 0; i < runs[a].size; ++i) {
+      const int column = runs[a].parent_row + i;
+      const double* source = update + static_cast<std::ptrdiff_t>(runs[a].child_row + i) * child_ld;
+      double* const target =
+          column < p ? view.panel + static_cast<std::ptrdiff_t>(column) * view.panelStride()
+                     : view.update + static_cast<std::ptrdiff_t>(column - p) * view.updateStride() - p;
+      for (int r = i; r < runs[a].size; ++r) {
+        target[runs[a].parent_row + r] += source[runs[a].child_row + r];
+      }
+      for (int b = a + 1; b < child.runs; ++b) {
+        double* const to = target + runs[b].parent_row;
+        const double* const from = source + runs[b].child_row;
+        for (int r = 0; r < runs[b].size; ++r) to[r] += from[r];
+      }
+      target[p + parent.rows] += source[child.rows];
+      const double diagonal = child_diagonal[runs[a].child_row + i];
+      if (column < p) {
+        pivot_diagonal[column] += diagonal;
+      } else {
+        row_diagonal[column - p] += diagonal;
+      }
+    }
+  }
+}
+
+void NormalEquations::processFront(int index, double damping, Worker* worker) {
+  const Front& front = plan_.fronts[index];
+  const FrontView view = viewOf(front);
+  const bool sampled = index < kSampledFronts || index % kSampledFronts == 0;
+  const Clock::time_point start = sampled ? Clock::now() : Clock::time_point();
+  const std::size_t panel_size = FrontView::panelSize(front.pivots, front.rows);
+  const std::size_t update_size = FrontView::updateSize(front.rows);
+  double* const pivot_diagonal = diagonal_.data() + front.first_pivot;
+  double* const row_diagonal = view.update + update_size;
+  std::memset(view.panel, 0, panel_size * sizeof(double));
+  std::memset(view.update, 0, (update_size + static_cast<std::size_t>(front.rows)) * sizeof(double));
+  std::memset(pivot_diagonal, 0, static_cast<std::size_t>(front.pivots) * sizeof(double));
+
+  assemble(index, view, pivot_diagonal, row_diagonal, worker);
+  if (sampled) worker->sampled_linearize_s += secondsSince(start);
+  for (int c = 0; c < front.children; ++c) {
+    extendAdd(plan_.fronts[plan_.children[front.first_child + c]], front, view, pivot_diagonal,
+              row_diagonal);
+  }
+
+  const int ld = view.panelStride();
+  worker->min_pivots.resize(static_cast<std::size_t>(front.pivots));
+  for (int k = 0; k < front.pivots; ++k) {
+    view.panel[k * ld + k] += damping * pivot_diagonal[k];
+    worker->min_pivots[k] = kMinPivotShare * pivot_diagonal[k];
+  }
+  worker->lost.clear();
+  eliminatePivots(view, worker->min_pivots.data(), &worker->scratch, &worker->lost);
+  for (const LostPivot& lost : worker->lost) {
+    worker->held.push_back(front.first_pivot + lost.column);
+    if (!(lost.value >= -kIndefiniteShare * pivot_diagonal[lost.column])) worker->indefinite = true;
+  }
+  double decrease = 0.0;
+  for (int k = 0; k < front.pivots; ++k) {
+    const double y = view.panel[k * ld + front.pivots + front.rows];
+    decrease += y * y;
+  }
+  front_decrease_[index] = decrease;
+  if (sampled) worker->sampled_s += secondsSince(start);
+}
+
+NormalEquations::Sweep NormalEquations::factorize(double damping, int threads) {
+  const auto count = std::max<std::size_t>(
+      1, std::min<std::size_t>(static_cast<std::size_t>(threads), plan_.subtrees.size()));
+  std::vector<Worker> workers(count);
+  for (Worker& worker : workers) {
+    worker.hessian.resize(static_cast<std::size_t>(max_tangents_) *
+                          static_cast<std::size_t>(max_tangents_));
+    worker.gradient.resize(static_cast<std::size_t>(max_tangents_));
+    worker.views.resize(static_cast<std::size_t>(max_tangents_ / 3 + 1));
+  }
+  std::atomic<std::size_t> next{0};
+  const auto work = [&](Worker* worker) {
+    const double start_ms = threadCpuMilliseconds();
+    for (std::size_t s = next++; s < plan_.subtrees.size(); s = next++) {
+      for (int f = plan_.subtrees[s].first; f < plan_.subtrees[s].last; ++f) {
+        processFront(f, damping, worker);
+      }
+    }
+    worker->cpu_ms = threadCpuMilliseconds() - start_ms;
+  };
+  std::vector<std::thread> others;
+  for (std::size_t t = 1; t < count; ++t) others.emplace_back(work, &workers[t]);
+  work(&workers[0]);
+  for (std::thread& other : others) other.join();
+  CpuStopwatch top;
+  for (const int f : plan_.top) processFront(f, damping, &workers[0]);
+  workers[0].cpu_ms += top.lap();
+
+  Sweep sweep;
+  for (const Worker& worker : workers) {
+    const double share =
+        worker.sampled_s > 0.0 ? worker.sampled_linearize_s / worker.sampled_s : 0.0;
+    sweep.linearize_ms += share * worker.cpu_ms;
+    sweep.factorize_ms += (1.0 - share) * worker.cpu_ms;
+    sweep.held.insert(sweep.held.end(), worker.held.begin(), worker.held.end());
+    sweep.indefinite = sweep.indefinite || worker.indefinite;
+  }
+  std::sort(sweep.held.begin(), sweep.held.end());
+  for (const double cost : front_cost_) sweep.cost += cost;
+  for (const double decrease : front_decrease_) sweep.decrease += decrease;
+  // factors between fixed variables count, though nothing can be done about them
+  Worker& worker = workers[0];
+  for (std::size_t k = static_cast<std::size_t>(first_factor_[plan_.fronts.size()]); k < factors_.size(); ++k) {
+    const BoundFactor& bound = factors_[k];
+    for (int n = 0; n < bound.ends; ++n) worker.views[n] = ends_[bound.first_end + n].view;
+    sweep.cost += bound.factor->cost(worker.views.data());
+  }
+  return sweep;
+}
+
+void NormalEquations::solve(std::vector<double>* step) const {
+  step->assign(static_cast<std::size_t>(tangents()), 0.0);
+  std::vector<double> later;
+  for (std::size_t f = plan_.fronts.size(); f-- > 0;) {
+    const Front& front = plan_.fronts[f];
+    const double* const panel = panels_.data() + front.panel;
+    const int ld = FrontView::panelStride(front.pivots, front.rows);
+    later.resize(static_cast<std::size_t>(front.rows));
+    for (int r = 0; r < front.rows; ++r) later[r] = (*step)[plan_.rows[front.first_row + r]];
+    double* const own = step->data() + front.first_pivot;
+    for (int k = front.pivots - 1; k >= 0; --k) {
+      const double* const column = panel + static_cast<std::ptrdiff_t>(k) * ld;
+      double left = column[front.pivots + front.rows];
+      for (int r = 0; r < front.rows; ++r) left -= column[front.pivots + r] * later[r];
+      for (int r = k + 1; r < front.pivots; ++r) left -= column[r] * own[r];
+      own[k] = left / column[k];
+    }
+  }
+}
+
+void NormalEquations::freeDirection(int held, std::vector<double>* step) const {
+  step->assign(static_cast<std::size_t>(tangents()), 0.0);
+  for (std::size_t f = plan_.fronts.size(); f-- > 0;) {
+    const Front& front = plan_.fronts[f];
+    const double* const panel = panels_.data() + front.panel;
+    const int ld = FrontView::panelStride(front.pivots, front.rows);
+    for (int k = front.pivots - 1; k >= 0; --k) {
+      const int tangent = front.first_pivot + k;
+      if (tangent == held) {
+        (*step)[tangent] = 1.0;
+        continue;
+      }
+      const double* const column = panel + static_cast<std::ptrdiff_t>(k) * ld;
+      double left = 0.0;
+      for (int r = k + 1; r < front.pivots; ++r) left -= column[r] * (*step)[front.first_pivot + r];
+      for (int r = 0; r < front.rows; ++r) {
+        left -= column[front.pivots + r] * (*step)[plan_.rows[front.first_row + r]];
+      }
+      (*step)[tangent] = left / column[k];
+    }
+  }
+}
+
+void NormalEquations::retract(const std::vector<double>& step, Problem* problem) const {
+  for (std::size_t k = 0; k < free_variables_.size(); ++k) {
+    problem->retractVariable(free_variables_[k], step.data() + plan_.tangent[k]);
+  }
+}
+
+double NormalEquations::cost() const {
+  std::vector<VariableView> views(static_cast<std::size_t>(max_tangents_ / 3 + 1));
+  double sum = 0.0;
+  for (const BoundFactor& bound : factors_) {
+    for (int n = 0; n < bound.ends; ++n) views[n] = ends_[bound.first_end + n].view;
+    sum += bound.factor->cost(views.data());
+  }
+  return sum;
+}
+
+int NormalEquations::variableOf(int tangent) const {
+  const auto after = std::upper_bound(plan_.tangent.begin(), plan_.tangent.end(), tangent);
+  return free_variables_[static_cast<std::size_t>(after - plan_.tangent.begin()) - 1];
+}
+
+}  // namespace mrpt_sgraphs
