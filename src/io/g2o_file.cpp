@@ -2,25 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mrpt_sgraphs/io/g2o_file.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <iomanip>
 #include <unordered_map>
 
 #include "mrpt_sgraphs/factors/relative_pose_quaternion.h"
 #include "mrpt_sgraphs/io/atomic_file.h"
+#include "mrpt_sgraphs/io/information_check.h"
 #include "mrpt_sgraphs/io/record_reader.h"
 
 namespace mrpt_sgraphs {
 namespace {
-
-bool isPositiveSemidefinite(const Matrix6& information) {
-  if (information.llt().info() == Eigen::Success) return true;
-  const Tangent eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Matrix6>(information, Eigen::EigenvaluesOnly).eigenvalues();
-  constexpr double kRounding = 1e-9;  // a file of few digits has moved eigenvalues that were zero
-  return eigenvalues.minCoeff() >= -kRounding * eigenvalues.cwiseAbs().maxCoeff();
-}
 
 Matrix6 readInformation(RecordReader* records) {
   Matrix6 information;
