@@ -16,9 +16,12 @@ namespace mrpt_sgraphs {
 namespace {
 
 /// Damping when Gauss-Newton fails for the first time; relative to the diagonal of H.
-constexpr double kFirstDamping = 1e-4;
+constexpr double kFirstDamping = 1e-9;
 /// Below it damping is none.
-constexpr double kMinDamping = 1e-8;
+constexpr double kMinDamping = 1e-10;
+/// Gauss-Newton may climb for so many steps before it has to be below where it began: bending a long
+/// trajectory back costs more on the way than it saves at first.
+constexpr int kMaxRises = 3;
 /// Above it no step is large enough to matter.
 constexpr double kMaxDamping = 1e10;
 /// A cost that has fallen to this share of the first one is zero: all factors agree.
@@ -102,7 +105,7 @@ class Optimizer::Impl {
 
     void run() {
       sweep_ = sweep(0.0);
-      cost_ = sweep_.cost;
+      cost_ = best_cost_ = sweep_.cost;
       report_.cost_before = report_.cost_after = cost_;
       if (!std::isfinite(cost_)) {
         report_.problem = nameOfBadFactor(problem_);
@@ -117,6 +120,7 @@ class Optimizer::Impl {
           iterate();
         }
       }
+      goBack();
       report_.cost_after = cost_;
       nameFreeDirections();
     }
@@ -145,7 +149,8 @@ class Optimizer::Impl {
       const double promised = promisedDecrease();
       const bool is_last = usable && damping_ == 0.0 && isSmall(promised);
       if (usable) {
-        before_ = problem_.values();
+        if (best_is_current_) best_ = problem_.values();
+        best_is_current_ = false;
         equations_.retract(step_, &problem_);
       }
       // Gauss-Newton mostly descends, so the next sweep tells the cost as well. Otherwise ask first.
@@ -159,17 +164,22 @@ class Optimizer::Impl {
         new_cost = equations_.cost();
       }
 
-      if (new_cost <= cost_) {  // false for what is no number
+      if (new_cost <= best_cost_) {  // false for what is no number
         accept(promised, new_cost, is_last, sweeps_on ? &next : nullptr);
+      } else if (sweeps_on && std::isfinite(new_cost) && rises_ < kMaxRises) {
+        ++rises_;
+        cost_ = new_cost;
+        sweep_ = std::move(next);
       } else {
-        reject(usable, is_last);
+        reject(is_last);
       }
     }
 
-    void accept(double promised, double new_cost, bool is_last,
-                const NormalEquations::Sweep* next) {
-      const double decrease = cost_ - new_cost;
-      cost_ = new_cost;
+    void accept(double promised, double new_cost, bool is_last, NormalEquations::Sweep* next) {
+      const double decrease = best_cost_ - new_cost;
+      cost_ = best_cost_ = new_cost;
+      best_is_current_ = true;
+      rises_ = 0;
       growth_ = kGrowth;
       if (is_last || cost_ <= kZeroCost * report_.cost_before) {
         report_.converged = true;
@@ -189,16 +199,18 @@ class Optimizer::Impl {
         }
         if (damping_ < kMinDamping) damping_ = 0.0;
       }
-      sweep_ = next != nullptr ? *next : sweep(damping_);
+      sweep_ = next != nullptr ? std::move(*next) : sweep(damping_);
     }
 
-    void reject(bool usable, bool is_last) {
-      if (usable) problem_.setValues(before_);
+    /// Back to the best values, with shorter steps.
+    void reject(bool is_last) {
+      goBack();
       // at the optimum rounding decides whether the cost falls
       if (is_last) {
         report_.converged = true;
         return;
       }
+      rises_ = kMaxRises;
       damping_ = std::max(kFirstDamping, damping_ * growth_);
       growth_ *= 2.0;
       if (damping_ > kMaxDamping) {
@@ -211,6 +223,12 @@ class Optimizer::Impl {
         return;
       }
       sweep_ = sweep(damping_);
+    }
+
+    void goBack() {
+      if (!best_is_current_) problem_.setValues(best_);
+      best_is_current_ = true;
+      cost_ = best_cost_;
     }
 
     /// Of the quadratic model by the step.
@@ -246,7 +264,10 @@ class Optimizer::Impl {
     Problem& problem_;
     OptimizerReport& report_;
     NormalEquations::Sweep sweep_;
-    Problem::Values before_;
+    Problem::Values best_;
+    bool best_is_current_ = true;  ///< The problem has the best values; else best_ has them.
+    double best_cost_ = 0.0;
+    int rises_ = 0;  ///< Steps that were taken though the cost rose, since it was lowest.
     std::vector<double> step_;
     std::vector<int> held_;  ///< Tangents, by the last undamped sweep.
     double cost_ = 0.0;

@@ -3,15 +3,11 @@
 
 #include "ordering.h"
 
+#include <amd.h>
 #include <metis.h>
 
 #include <stdexcept>
 #include <string>
-#if __has_include(<suitesparse/amd.h>)
-#include <suitesparse/amd.h>
-#else
-#include <amd.h>
-#endif
 
 namespace mrpt_sgraphs {
 

@@ -85,7 +85,7 @@ void Problem::retractVariable(int variable, const double* delta) {
   if (isPlane(v.node.layer)) {
     planes_[v.slot] = retract(planes_[v.slot], Eigen::Map<const PlaneTangent>(delta));
   } else {
-    poses_[v.slot] = orthonormalized(retract(poses_[v.slot], Eigen::Map<const Tangent>(delta)));
+    poses_[v.slot] = orthonormalized(poses_[v.slot] * expSE3(Eigen::Map<const Tangent>(delta)));
   }
 }
 

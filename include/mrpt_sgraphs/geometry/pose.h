@@ -58,6 +58,24 @@ inline Tangent logPose(const Pose& T) {
   return delta;
 }
 
+/// The exponential of SE(3): a screw motion. Agrees with expPose to first order; a rigid motion of
+/// many poses at once, each moved by its own share of one twist, stays rigid however large it is.
+inline Pose expSE3(const Tangent& delta) {
+  const Eigen::Vector3d theta = delta.tail<3>();
+  const double angle2 = theta.squaredNorm();
+  constexpr double kTiny_rad2 = 1e-8;
+  const bool tiny = angle2 < kTiny_rad2;
+  const double angle = std::sqrt(angle2);
+  const double a = tiny ? 0.5 - angle2 / 24.0 : (1.0 - std::cos(angle)) / angle2;
+  const double b = tiny ? 1.0 / 6.0 - angle2 / 120.0 : (angle - std::sin(angle)) / (angle2 * angle);
+  const Eigen::Vector3d v = delta.head<3>();
+  const Eigen::Vector3d turned = theta.cross(v);
+  Pose T = Pose::Identity();
+  T.linear() = expSO3(theta);
+  T.translation() = v + a * turned + b * theta.cross(turned);
+  return T;
+}
+
 /// Perturbation on the right: `T exp(delta)`. retract(T, local(T, S)) == S.
 inline Pose retract(const Pose& T, const Tangent& delta) { return T * expPose(delta); }
 inline Tangent local(const Pose& T, const Pose& S) { return logPose(T.inverse() * S); }
