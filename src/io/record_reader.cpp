@@ -87,7 +87,7 @@ RecordReader::RecordReader(const std::string& path) : path_(path) {
   std::error_code no_size;  // a pipe has none
   const auto bytes = std::filesystem::file_size(path, no_size);
   if (!no_size) text_.reserve(static_cast<std::size_t>(bytes) + 1);
-  constexpr std::size_t kChunk = 1U << 20U;
+  constexpr std::size_t kChunk = 1U << 16U;
   for (std::string chunk(kChunk, '\0'); file;) {
     file.read(chunk.data(), kChunk);
     text_.append(chunk, 0, static_cast<std::size_t>(file.gcount()));

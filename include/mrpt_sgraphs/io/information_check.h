@@ -9,14 +9,17 @@
 
 namespace mrpt_sgraphs {
 
-/// Whether a symmetric matrix can be an information. A file of few digits may have moved eigenvalues
+/// Whether a finite symmetric matrix can be an information. A file of few digits may have moved eigenvalues
 /// that were zero: so much below zero is still semidefinite.
 inline bool isPositiveSemidefinite(const Matrix6& information) {
-  if (information.llt().info() == Eigen::Success) return true;
-  const Tangent eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Matrix6>(information, Eigen::EigenvaluesOnly).eigenvalues();
+  const double largest = information.cwiseAbs().maxCoeff();
+  if (largest == 0.0) return true;
+  const Matrix6 scaled = information / largest;  // so that nothing overflows
+  if (scaled.llt().info() == Eigen::Success) return true;
   constexpr double kRounding = 1e-9;
-  return eigenvalues.minCoeff() >= -kRounding * eigenvalues.cwiseAbs().maxCoeff();
+  return Eigen::SelfAdjointEigenSolver<Matrix6>(scaled, Eigen::EigenvaluesOnly)
+             .eigenvalues()
+             .minCoeff() >= -kRounding;
 }
 
 }  // namespace mrpt_sgraphs
