@@ -1,10 +1,7 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sys/resource.h>
-
 #include <boost/program_options.hpp>
 #include <chrono>
-#include <cmath>
 #include <ctime>
 #include <exception>
 #include <iostream>
@@ -19,6 +16,7 @@
 #include "mrpt_sgraphs/io/statistics.h"
 #include "mrpt_sgraphs/solver/chordal_initialization.h"
 #include "mrpt_sgraphs/solver/optimizer.h"
+#include "peak_memory.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -120,13 +118,6 @@ double processCpu_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double peakMiB() {
-  constexpr double kKiBInMiB = 1024.0;
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / kKiBInMiB;
-}
-
 struct Measured {
   OptimizerReport report;  ///< Of the last repeat; they are all the same but for the times.
   double cpu_s = 0.0;      ///< Medians over the repeats.
@@ -220,7 +211,7 @@ void run(const Options& options) {
 
   Json json = toJson(options, graph, measured);
   if (!init.is_null()) json["chordal"] = init;
-  json["peak_mib"] = peakMiB();
+  json["peak_mib"] = peakMemory_MiB();
   std::cout << json.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
   if (!std::cout) throw std::runtime_error("cannot write the report");
   if (!measured.report.converged) {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <ctime>
@@ -16,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "../../apps/peak_memory.h"
 #include "mrpt_sgraphs/io/g2o_file.h"
 #include "mrpt_sgraphs/io/sg_file.h"
 
@@ -128,15 +127,13 @@ inline int run(const Options& options,
     wall_s.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
   std::cout << nlohmann::json{{"file", options.file},
                               {"iterations", solved.iterations},
                               {"converged", solved.converged},
                               {"chi2", {{"before", as_read.cost()}, {"after", graph.cost()}}},
                               {"cpu_s", median(cpu_s)},
                               {"wall_s", median(wall_s)},
-                              {"peak_mib", static_cast<double>(usage.ru_maxrss) / 1024.0}}
+                              {"peak_mib", peakMemory_MiB()}}
                    .dump()
             << std::endl;
   if (!options.out.empty()) {
