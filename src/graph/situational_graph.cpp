@@ -94,7 +94,9 @@ void SituationalGraph::restoreFloor(FloorId id, const Plane& ground_map,
 
 void SituationalGraph::eraseNode(NodeId node) {
   const NodeHandle place = handle(node);
-  while (!topology_.links(place).empty()) eraseFactor(topology_.links(place).back().id);
+  while (!topology_.sightings(place).empty()) eraseFactor(topology_.sightings(place).back().id);
+  while (!topology_.others(place).empty()) eraseFactor(topology_.others(place).back().id);
+  ++erasures_;
   topology_.eraseNode(place);
   switch (place.layer) {
     case Layer::kKeyframe:
@@ -131,6 +133,7 @@ FactorId SituationalGraph::addFactor(FactorConstPtr factor) {
 
 void SituationalGraph::eraseFactor(FactorId id) {
   const uint32_t slot = factorSlot(id);
+  ++erasures_;
   if (edges_[slot]) network_.eraseEdge(*edges_[slot]);
   topology_.eraseFactor(slot);
   factor_slots_.erase(id);

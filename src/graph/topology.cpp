@@ -7,29 +7,36 @@
 
 namespace mrpt_sgraphs {
 
+bool Topology::isSighting(const Ends& ends) {
+  if (ends.size() != 2 || ends[0].node.layer != Layer::kKeyframe) return false;
+  return ends[1].node.layer == Layer::kWall || ends[1].node.layer == Layer::kFloor;
+}
+
 void Topology::eraseNode(NodeHandle node) {
-  std::vector<Links>& layer = layerOf(node);
+  std::vector<NodeLinks>& layer = layerOf(node);
   layer.erase(layer.begin() + static_cast<std::ptrdiff_t>(node.slot));
   for (uint32_t slot = node.slot; slot < layer.size(); ++slot) {
-    for (const FactorLink& link : layer[slot]) ends_[link.slot][link.end].node.slot = slot;
+    for (const Links* links : {&layer[slot].sightings, &layer[slot].others}) {
+      for (const FactorLink& link : *links) ends_[link.slot][link.end].node.slot = slot;
+    }
   }
 }
 
 void Topology::addFactor(FactorId id, const std::vector<NodeHandle>& nodes) {
   const auto slot = static_cast<uint32_t>(ends_.size());
   Ends ends;
-  for (const NodeHandle node : nodes) {
-    Links& links = layerOf(node)[node.slot];
-    const auto end = static_cast<uint32_t>(ends.size());
-    ends.push_back({node, static_cast<uint32_t>(links.size())});
-    links.push_back({id, slot, end});
+  for (const NodeHandle node : nodes) ends.push_back({node, 0});
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    Links& links = linksOf(ends[k], ends);
+    ends[k].position = static_cast<uint32_t>(links.size());
+    links.push_back({id, slot, static_cast<uint32_t>(k)});
   }
   ends_.push_back(std::move(ends));
 }
 
 void Topology::eraseFactor(uint32_t factor) {
   for (const FactorEnd& end : ends_[factor]) {
-    Links& links = layerOf(end.node)[end.node.slot];
+    Links& links = linksOf(end, ends_[factor]);
     const FactorLink moved = links.back();
     links[end.position] = moved;
     ends_[moved.slot][moved.end].position = end.position;
@@ -39,7 +46,7 @@ void Topology::eraseFactor(uint32_t factor) {
   ends_.pop_back();
   if (factor == ends_.size()) return;
   for (const FactorEnd& end : ends_[factor]) {
-    layerOf(end.node)[end.node.slot][end.position].slot = factor;
+    linksOf(end, ends_[factor])[end.position].slot = factor;
   }
 }
 

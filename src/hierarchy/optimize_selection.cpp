@@ -6,27 +6,69 @@
 #include <array>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 
 namespace mrpt_sgraphs {
 namespace {
 
 constexpr int kOutside = -1;
 
+/// Which variable a node is. A small selection of a large graph does not pay for all its nodes.
+class VariableNumbers {
+ public:
+  VariableNumbers(std::size_t selected, const SituationalGraph& graph) {
+    std::size_t nodes = 0;
+    for (const Layer layer : kLayers) nodes += graph.size(layer);
+    dense_ = nodes < kSparse * selected;
+    if (!dense_) {
+      sparse_.reserve(selected);
+      return;
+    }
+    for (const Layer layer : kLayers) {
+      numbers_[static_cast<std::size_t>(layer)].assign(graph.size(layer), kOutside);
+    }
+  }
+
+  int of(NodeHandle node) const {
+    if (dense_) return numbers_[static_cast<std::size_t>(node.layer)][node.slot];
+    const auto found = sparse_.find(key(node));
+    return found == sparse_.end() ? kOutside : found->second;
+  }
+
+  void set(NodeHandle node, int number) {
+    if (dense_) {
+      numbers_[static_cast<std::size_t>(node.layer)][node.slot] = number;
+    } else {
+      sparse_[key(node)] = number;
+    }
+  }
+
+ private:
+  static constexpr Layer kLayers[] = {Layer::kKeyframe, Layer::kWall, Layer::kRoom, Layer::kFloor};
+  static constexpr std::size_t kSparse = 8;  ///< Nodes for each selected one.
+
+  static uint64_t key(NodeHandle node) {
+    return (static_cast<uint64_t>(node.layer) << 32U) | node.slot;
+  }
+
+  bool dense_ = true;
+  std::array<std::vector<int>, 4> numbers_;  ///< By layer and slot.
+  std::unordered_map<uint64_t, int> sparse_;
+};
+
 /// The selected part of a graph as a problem for the solver.
 class SelectedProblem {
  public:
-  SelectedProblem(const Selection& selection, const SituationalGraph& graph) : graph_(graph) {
-    for (const Layer layer : {Layer::kKeyframe, Layer::kWall, Layer::kRoom, Layer::kFloor}) {
-      variables_[static_cast<std::size_t>(layer)].assign(graph.size(layer), kOutside);
-    }
+  SelectedProblem(const Selection& selection, const SituationalGraph& graph)
+      : graph_(graph), variables_(selection.free.size() + selection.fixed.size(), graph) {
     problem_.reserve(selection.free.size() + selection.fixed.size(), countLinks(selection));
     for (const NodeId node : selection.free) addVariable(node, false);
     for (const NodeId node : selection.fixed) addVariable(node, true);
-    for (const NodeHandle node : nodes_) {
-      if (problem_.isFixed(variableOf(node))) break;  // the free ones come first
-      for (const FactorLink& link : graph.topology().links(node)) {
-        addFactor(node, link.slot, selection.outside);
-      }
+    std::vector<char> is_summed(nodes_.size(), 0);
+    for (const SummedObservationsFactor& sum : selection.sums) is_summed[addSum(sum)] = 1;
+    for (std::size_t k = 0; k < selection.free.size(); ++k) {
+      if (is_summed[k] == 0) addFactors(nodes_[k], graph.topology().sightings(nodes_[k]), selection);
+      addFactors(nodes_[k], graph.topology().others(nodes_[k]), selection);
     }
   }
 
@@ -47,23 +89,37 @@ class SelectedProblem {
  private:
   std::size_t countLinks(const Selection& selection) const {
     std::size_t links = 0;
-    for (const NodeId node : selection.free) links += graph_.factorsOf(node).size();
+    for (const NodeId node : selection.free) links += graph_.factorCountOf(node);
     return links;
   }
 
-  int& variableOf(NodeHandle node) {
-    return variables_[static_cast<std::size_t>(node.layer)][node.slot];
+  int variableOf(NodeHandle node) const { return variables_.of(node); }
+
+  /// @return The variable that it is about.
+  std::size_t addSum(const SummedObservationsFactor& sum) {
+    const NodeId surface = sum.node(0);
+    const int variable = variableOf(graph_.handle(surface));
+    if (variable == kOutside || problem_.isFixed(variable)) {
+      throw std::invalid_argument("observations are summed for " + nameOf(surface) +
+                                  ", which is not free in the selection");
+    }
+    problem_.addFactor(sum, &variable);
+    return static_cast<std::size_t>(variable);
   }
-  int variableOf(NodeHandle node) const {
-    return variables_[static_cast<std::size_t>(node.layer)][node.slot];
+
+  void addFactors(NodeHandle node, const Topology::Links& links, const Selection& selection) {
+    for (const FactorLink& link : links) addFactor(node, link.slot, selection.outside);
   }
 
   void addVariable(NodeId node, bool fixed) {
     const NodeHandle handle = graph_.handle(node);
-    int& variable = variableOf(handle);
-    if (variable != kOutside) throw std::invalid_argument(nameOf(node) + " is selected twice");
-    variable = isPlane(node.layer) ? problem_.addVariable(node, graph_.plane(handle), fixed)
-                                   : problem_.addVariable(node, graph_.pose(handle), fixed);
+    if (variableOf(handle) != kOutside) {
+      throw std::invalid_argument(nameOf(node) + " is selected twice");
+    }
+    const int variable = isPlane(node.layer)
+                             ? problem_.addVariable(node, graph_.plane(handle), fixed)
+                             : problem_.addVariable(node, graph_.pose(handle), fixed);
+    variables_.set(handle, variable);
     nodes_.push_back(handle);
   }
 
@@ -104,7 +160,7 @@ class SelectedProblem {
   const SituationalGraph& graph_;
   Problem problem_;
   std::vector<NodeHandle> nodes_;              ///< By variable: first the free, then the fixed.
-  std::array<std::vector<int>, 4> variables_;  ///< By layer and slot.
+  VariableNumbers variables_;
   std::vector<int> ends_;                      ///< Of the factor at hand.
 };
 

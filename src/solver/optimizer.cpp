@@ -26,6 +26,9 @@ constexpr int kMaxRises = 3;
 constexpr double kMaxDamping = 1e10;
 /// A cost that has fallen to this share of the first one is zero: all factors agree.
 constexpr double kZeroCost = 1e-14;
+/// A step so short, in metres for each metre from the origin and in radians, is rounding: where all
+/// factors agree no share of the cost says so.
+constexpr double kNoStep = 1e-12;
 /// The model's promise was kept well enough to trust it further.
 constexpr double kGoodGain = 0.5;
 
@@ -148,7 +151,8 @@ class Optimizer::Impl {
       report_.factorize_ms += watch.lap();
       const bool usable = isFinite(step_) && !sweep_.indefinite;
       const double promised = promisedDecrease();
-      const bool is_last = usable && damping_ == 0.0 && isSmall(promised);
+      const bool is_last =
+          usable && damping_ == 0.0 && (isSmall(promised) || isRounding(step_));
       if (usable) {
         if (best_is_current_) best_ = problem_.values();
         best_is_current_ = false;
@@ -245,6 +249,17 @@ class Optimizer::Impl {
 
     bool isSmall(double decrease) const {
       return decrease <= config_.min_relative_decrease * cost_ + kZeroCost * report_.cost_before;
+    }
+
+    bool isRounding(const std::vector<double>& step) const {
+      double extent_m = 1.0;
+      for (int v = 0; v < problem_.variableCount(); ++v) {
+        extent_m = std::max(extent_m, isPlane(problem_.node(v).layer)
+                                          ? std::abs(problem_.plane(v).distance)
+                                          : problem_.pose(v).translation().cwiseAbs().maxCoeff());
+      }
+      return std::all_of(step.begin(), step.end(),
+                         [&](double x) { return std::abs(x) <= kNoStep * extent_m; });
     }
 
     void nameFreeDirections() {

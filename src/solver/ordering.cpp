@@ -6,14 +6,25 @@
 #include <amd.h>
 #include <metis.h>
 
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
 namespace mrpt_sgraphs {
+namespace {
+
+/// Variables that know nothing of each other: any order will do, and neither library takes them.
+std::vector<int> asTheyCome(const VariableGraph& graph) {
+  std::vector<int> order(graph.sizes.size());
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
+}  // namespace
 
 std::vector<int> minimumDegreeOrder(const VariableGraph& graph) {
+  if (graph.neighbours.empty()) return asTheyCome(graph);
   std::vector<int> order(graph.sizes.size());
-  if (order.empty()) return order;
   const int status = amd_order(graph.count(), graph.first.data(), graph.neighbours.data(),
                                order.data(), nullptr, nullptr);
   if (status != AMD_OK && status != AMD_OK_BUT_JUMBLED) {
@@ -24,8 +35,8 @@ std::vector<int> minimumDegreeOrder(const VariableGraph& graph) {
 }
 
 std::vector<int> nestedDissectionOrder(const VariableGraph& graph) {
+  if (graph.neighbours.empty()) return asTheyCome(graph);
   idx_t count = graph.count();
-  if (count == 0) return {};
   std::vector<idx_t> first(graph.first.begin(), graph.first.end());
   std::vector<idx_t> neighbours(graph.neighbours.begin(), graph.neighbours.end());
   std::vector<idx_t> weights(graph.sizes.begin(), graph.sizes.end());

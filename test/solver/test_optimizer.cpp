@@ -30,6 +30,25 @@ TEST(Optimizer, FindsTheTruthThatAllFactorsAgreeOn) {
   }
 }
 
+TEST(Optimizer, SeesThatThereIsNothingToDo) {
+  // dead reckoning: all factors agree but for rounding, and no share of that cost is small
+  const SmallWorld world(200, 1, 0.0);
+  Problem problem = world.problem(0.0, 0.0);
+  ASSERT_LT(problem.cost(), 1e-15);
+  const OptimizerReport report = Optimizer().optimize(kDefaults, &problem);
+  EXPECT_TRUE(report.converged) << report.problem;
+  EXPECT_LE(report.iterations, 2);
+}
+
+TEST(Optimizer, SolvesForOneNodeAndForSeveralThatShareNoFactor) {
+  const SmallWorld world(40);
+  Problem problem = world.problem();
+  for (int v = 0; v < problem.variableCount(); ++v) problem.setFixed(v, v % 8 != 3);
+  const OptimizerReport report = Optimizer().optimize(kDefaults, &problem);
+  EXPECT_TRUE(report.converged) << report.problem;
+  EXPECT_LT(report.cost_after, report.cost_before);
+}
+
 TEST(Optimizer, EndsWhereNoSmallMoveIsBetter) {
   const SmallWorld world(60);
   Problem problem = world.problem();

@@ -53,7 +53,12 @@ class SituationalGraph {
   bool contains(NodeId node) const;
   bool contains(FactorId id) const { return factor_slots_.count(id) != 0; }
   const FactorConstPtr& factor(FactorId id) const { return factors_[factorSlot(id)].factor; }
-  const Topology::Links& factorsOf(NodeId node) const { return topology_.links(handle(node)); }
+  /// In no order that means anything; neither copies nor searches. See Topology for the two kinds.
+  const Topology::Links& sightingsOf(NodeId node) const {
+    return topology_.sightings(handle(node));
+  }
+  const Topology::Links& otherFactorsOf(NodeId node) const { return topology_.others(handle(node)); }
+  std::size_t factorCountOf(NodeId node) const { return topology_.linkCount(handle(node)); }
 
   /// Estimates. To set one throws as to add it does.
   Pose pose(KeyframeId id) const { return pose(handle(id)); }
@@ -89,6 +94,8 @@ class SituationalGraph {
   void setPlane(NodeHandle node, const Plane& plane);
   const StoredFactor& factorAt(uint32_t slot) const { return factors_[slot]; }
   const Topology& topology() const { return topology_; }
+  /// How often a node or factor was erased: places that are remembered are good while it stands.
+  uint64_t erasures() const { return erasures_; }
 
   /// To be handed to MRPT.
   const Network& network() const { return network_.network(); }
@@ -117,6 +124,7 @@ class SituationalGraph {
   std::unordered_map<FactorId, uint32_t> factor_slots_;
   Topology topology_;
   uint64_t next_factor_ = 0;
+  uint64_t erasures_ = 0;
   Pose T_map_odom_ = Pose::Identity();
 
   mutable std::vector<uint32_t> moved_;     ///< Slots of keyframes, since the last snapshot.

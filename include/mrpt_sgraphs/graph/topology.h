@@ -32,7 +32,7 @@ struct FactorLink {
 /// A node as one of its factors sees it.
 struct FactorEnd {
   NodeHandle node;
-  uint32_t position = 0;  ///< Of the factor among the node's links.
+  uint32_t position = 0;  ///< Of the factor among the node's sightings or others.
 };
 
 /// Which factors join which nodes, both ways: no search and no hashing to go from one to the other,
@@ -42,7 +42,14 @@ class Topology {
   using Links = std::vector<FactorLink>;
   using Ends = boost::container::small_vector<FactorEnd, 3>;
 
-  const Links& links(NodeHandle node) const { return layerOf(node)[node.slot]; }
+  /// The factors of a node. A corridor's wall is seen by thousands of keyframes and tied to few other
+  /// nodes: sightings, factors between a keyframe and one surface, are kept apart from the others.
+  const Links& sightings(NodeHandle node) const { return layerOf(node)[node.slot].sightings; }
+  const Links& others(NodeHandle node) const { return layerOf(node)[node.slot].others; }
+  std::size_t linkCount(NodeHandle node) const {
+    return sightings(node).size() + others(node).size();
+  }
+
   const Ends& ends(uint32_t factor) const { return ends_[factor]; }
 
   /// A node without factors, in the last place of its layer.
@@ -59,14 +66,24 @@ class Topology {
   void eraseFactor(uint32_t factor);
 
  private:
-  std::vector<Links>& layerOf(NodeHandle node) {
+  struct NodeLinks {
+    Links sightings;
+    Links others;
+  };
+
+  static bool isSighting(const Ends& ends);
+  Links& linksOf(const FactorEnd& end, const Ends& ends) {
+    NodeLinks& links = layerOf(end.node)[end.node.slot];
+    return isSighting(ends) ? links.sightings : links.others;
+  }
+  std::vector<NodeLinks>& layerOf(NodeHandle node) {
     return links_[static_cast<std::size_t>(node.layer)];
   }
-  const std::vector<Links>& layerOf(NodeHandle node) const {
+  const std::vector<NodeLinks>& layerOf(NodeHandle node) const {
     return links_[static_cast<std::size_t>(node.layer)];
   }
 
-  std::array<std::vector<Links>, 4> links_;  ///< Layer, slot.
+  std::array<std::vector<NodeLinks>, 4> links_;  ///< Layer, slot.
   std::vector<Ends> ends_;
 };
 

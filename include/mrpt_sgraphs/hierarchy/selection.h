@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "mrpt_sgraphs/factors/summed_observations.h"
 #include "mrpt_sgraphs/graph/situational_graph.h"
 
 namespace mrpt_sgraphs {
@@ -19,6 +20,10 @@ struct Selection {
   /// that node was forgotten, and information would be lost. Where it is meant, say so here.
   enum class Outside { kIsAnError, kIsLeftOut };
   Outside outside = Outside::kIsAnError;
+
+  /// For free walls and floors: what all keyframes that are in neither list say on them, in place of
+  /// those sightings one by one.
+  std::vector<SummedObservationsFactor> sums;
 };
 
 /// The whole graph; the first keyframe stays, so that the map does.

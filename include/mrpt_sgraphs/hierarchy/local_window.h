@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+
+#include "mrpt_sgraphs/hierarchy/selection.h"
+
+namespace mrpt_sgraphs {
+
+/// The local window of Sec. III-B: the last N keyframes, the walls that they see and the rooms of
+/// those walls are free; the keyframes around them, the other walls of the rooms and the ground stay.
+///
+/// What the keyframes behind the window say on a wall is kept summed up, so that the cost of a window
+/// does not grow with the graph: each keyframe is added to the sums once, when it leaves the window.
+class LocalWindow {
+ public:
+  /// @param keyframes  N, at least 1.
+  /// @throws std::invalid_argument otherwise.
+  explicit LocalWindow(std::size_t keyframes);
+
+  /// The window at the end of the graph.
+  Selection select(const SituationalGraph& graph);
+
+  /// To be called when keyframes behind the window have moved, or the surfaces far: the next window
+  /// sums up from the start again. That something was erased it sees for itself.
+  void forget();
+
+ private:
+  void catchUp(const SituationalGraph& graph, uint32_t first_in_window);
+  void add(const SituationalGraph& graph, uint32_t factor);
+
+  std::size_t keyframes_;
+  std::unordered_map<NodeId, ObservationSum> sums_;  ///< By wall or floor.
+  uint32_t summed_keyframes_ = 0;                    ///< Places below are in the sums,
+  uint32_t known_factors_ = 0;                       ///< ... as far as factors with places below.
+  uint64_t erasures_ = 0;                            ///< Of the graph, when places were noted.
+};
+
+}  // namespace mrpt_sgraphs
