@@ -3,6 +3,7 @@
 
 #include "mrpt_sgraphs/hierarchy/local_window.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <unordered_set>
 
@@ -80,10 +81,11 @@ void LocalWindow::catchUp(const SituationalGraph& graph, uint32_t first_in_windo
 Selection LocalWindow::select(const SituationalGraph& graph) {
   const std::size_t count = graph.size(Layer::kKeyframe);
   const auto first = static_cast<uint32_t>(count > keyframes_ ? count - keyframes_ : 0);
-  catchUp(graph, first);
+  const auto first_free = static_cast<uint32_t>(
+      count > keyframes_ ? first : std::min<std::size_t>(count, 1));  // something has to stay
+  catchUp(graph, first_free);
 
   const Topology& topology = graph.topology();
-  const uint32_t first_free = count > keyframes_ ? first : 1;  // something has to stay
   FoundNodes free;
   FoundNodes all;
   const auto addFree = [&](NodeHandle node) {
