@@ -5,49 +5,12 @@
 
 #include <Eigen/Geometry>
 #include <iomanip>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 namespace mrpt_sgraphs {
 namespace {
 
-using Json = nlohmann::json;
-constexpr int kGraphVersion = 1;
 constexpr int kAllDigits = 17;  ///< A double comes back as it was.
-
-/// [x, y, z, qx, qy, qz, qw]
-Json toJson(const Pose& T) {
-  const Eigen::Quaterniond q(T.linear());
-  const Eigen::Vector3d t = T.translation();
-  return Json::array({t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()});
-}
-
-/// Row-major upper triangle, tangent order.
-Json toJson(const Matrix6& information) {
-  Json triangle = Json::array();
-  for (int row = 0; row < 6; ++row) {
-    for (int column = row; column < 6; ++column) triangle.push_back(information(row, column));
-  }
-  return triangle;
-}
-
-Json toJson(const KeyframeNode& keyframe) {
-  return {{"id", keyframe.id.value},
-          {"stamp", keyframe.stamp_s},
-          {"pose", toJson(keyframe.T_map_base)},
-          {"odometry", toJson(keyframe.T_odom_base)},
-          {"floor", keyframe.floor ? Json(keyframe.floor->value) : Json(nullptr)},
-          {"room", keyframe.room ? Json(keyframe.room->value) : Json(nullptr)},
-          {"marginalized", keyframe.marginalized},
-          {"representative", keyframe.representative.value_or(keyframe.id).value}};
-}
-
-Json toJson(const RelativePoseFactor& edge) {
-  return {{"type", edge.type()},
-          {"nodes", {{{"keyframe", edge.node(0).value}}, {{"keyframe", edge.node(1).value}}}},
-          {"measurement", toJson(edge.T_from_to)},
-          {"information", toJson(edge.information())}};
-}
 
 void writePose(const Pose& T, std::ostream& out) {
   const Eigen::Quaterniond q(T.linear());
@@ -55,25 +18,6 @@ void writePose(const Pose& T, std::ostream& out) {
 }
 
 }  // namespace
-
-void writeGraphJson(const GraphSnapshot& graph, std::ostream& out) {
-  Json keyframes = Json::array();
-  for (const KeyframeNode& keyframe : graph.keyframes) keyframes.push_back(toJson(keyframe));
-  Json factors = Json::array();
-  for (const StoredFactor& stored : graph.factors) {
-    const RelativePoseFactor* const edge = keyframeEdge(*stored.factor);
-    if (edge != nullptr) factors.push_back(toJson(*edge));
-  }
-  const Json document = {{"format", "mrpt_sgraphs/graph"},
-                         {"version", kGraphVersion},
-                         {"map_odom", toJson(graph.T_map_odom)},
-                         {"keyframes", keyframes},
-                         {"walls", Json::array()},
-                         {"rooms", Json::array()},
-                         {"floors", Json::array()},
-                         {"factors", factors}};
-  out << document.dump(1) << '\n';
-}
 
 void writeG2o(const GraphSnapshot& graph, std::ostream& out) {
   out << std::setprecision(kAllDigits);

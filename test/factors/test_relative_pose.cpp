@@ -1,61 +1,59 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mrpt_sgraphs/factors/relative_pose.h"
-
 #include <gtest/gtest.h>
 
-#include "support/numerical_jacobian.h"
-#include "support/random_geometry.h"
+#include "mrpt_sgraphs/factors/relative_pose.h"
+#include "mrpt_sgraphs/factors/relative_pose_quaternion.h"
+#include "support/factor_laws.h"
 
 namespace mrpt_sgraphs {
 namespace {
 
-class RelativePoseTest : public ::testing::TestWithParam<double> {
- protected:
-  test::RandomGeometry random_{3, GetParam()};
-};
-INSTANTIATE_TEST_SUITE_P(Extents, RelativePoseTest, ::testing::Values(1.0, 50.0, 500.0));
-
-TEST_P(RelativePoseTest, IsZeroAtItsMeasurement) {
-  const Pose T_map_from = random_.pose();
-  const Pose T_from_to = random_.smallPose(2.0, 3.0);
-  const Tangent e = relativePoseResidual(T_from_to, T_map_from, T_map_from * T_from_to, nullptr,
-                                         nullptr);
-  EXPECT_NEAR(e.norm(), 0.0, 1e-12 * (1.0 + GetParam()));
+// Half a turn has two rotation vectors; whichever it is, what comes out are numbers.
+TEST(RelativePoseAtHalfATurn, StaysFinite) {
+  test::RandomGeometry random(5, 10.0);
+  for (const double off_rad : {0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3}) {
+    for (const int axis : {0, 1, 2, 3}) {
+      const Eigen::Vector3d direction =
+          axis < 3 ? Eigen::Vector3d::Unit(axis) : random.vector(1.0).normalized().eval();
+      Pose T_from_to = Pose::Identity();
+      T_from_to.linear() = Eigen::AngleAxisd(M_PI - off_rad, direction).toRotationMatrix();
+      const Pose T_map_from = random.pose();
+      const RelativePoseFactor factor(KeyframeId{1}, KeyframeId{2}, Pose::Identity(),
+                                      Matrix6::Identity());
+      const RelativePoseQuaternionFactor quaternion_factor(KeyframeId{1}, KeyframeId{2},
+                                                           Pose::Identity(), Matrix6::Identity());
+      const test::Values values{T_map_from, T_map_from * T_from_to};
+      const test::Linearized got = test::linearize(factor, values);
+      EXPECT_TRUE(got.H.allFinite() && got.g.allFinite());
+      EXPECT_NEAR(std::sqrt(got.cost), M_PI - off_rad, 1e-7);
+      const test::Linearized got_quaternion = test::linearize(quaternion_factor, values);
+      EXPECT_TRUE(got_quaternion.H.allFinite() && got_quaternion.g.allFinite());
+      EXPECT_NEAR(got_quaternion.cost, 1.0, 1e-6);
+      if (off_rad == 1e-3) test::expectJacobiansMatch(factor, values);
+    }
+  }
 }
 
-TEST_P(RelativePoseTest, DoesNotDependOnWhereTheMapOriginIs) {
-  const Pose T_map_from = random_.pose();
-  const Pose T_map_to = T_map_from * random_.smallPose(2.0, 1.0);
-  const Pose measured = random_.smallPose(2.0, 1.0);
-  const Pose T_other_map = random_.pose();
-  const Tangent e = relativePoseResidual(measured, T_map_from, T_map_to, nullptr, nullptr);
-  const Tangent e_other = relativePoseResidual(measured, T_other_map * T_map_from,
-                                               T_other_map * T_map_to, nullptr, nullptr);
-  EXPECT_NEAR((e - e_other).norm(), 0.0, 1e-9);
+// What a g2o file means: half the rotation vector for small angles, and the same whichever sign the
+// quaternion has.
+TEST(RelativePoseQuaternion, IsHalfTheRotationVectorWhenSmall) {
+  const Tangent delta = (Tangent() << 0.1, -0.2, 0.3, 1e-4, -2e-4, 3e-4).finished();
+  const RelativePoseQuaternionFactor factor(KeyframeId{1}, KeyframeId{2}, Pose::Identity(),
+                                            Matrix6::Identity());
+  const auto e = factor.evaluate(Pose::Identity(), expPose(delta), nullptr, nullptr);
+  EXPECT_NEAR((e.head<3>() - delta.head<3>()).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((e.tail<3>() - 0.5 * delta.tail<3>()).norm(), 0.0, 1e-11);
 }
 
-TEST_P(RelativePoseTest, JacobiansMatchCentralDifferences) {
-  for (int trial = 0; trial < 20; ++trial) {
-    SCOPED_TRACE(trial);
-    const Pose T_map_from = random_.pose();
-    const Pose T_map_to = T_map_from * random_.smallPose(3.0, 1.0);
-    const Pose measured = random_.smallPose(3.0, 0.6);
-    Matrix6 J_from;
-    Matrix6 J_to;
-    relativePoseResidual(measured, T_map_from, T_map_to, &J_from, &J_to);
-    const Matrix6 numeric_from = test::centralDifferences(
-        [&](const Pose& T) {
-          return relativePoseResidual(measured, T, T_map_to, nullptr, nullptr);
-        },
-        T_map_from);
-    const Matrix6 numeric_to = test::centralDifferences(
-        [&](const Pose& T) {
-          return relativePoseResidual(measured, T_map_from, T, nullptr, nullptr);
-        },
-        T_map_to);
-    EXPECT_NEAR((J_from - numeric_from).cwiseAbs().maxCoeff(), 0.0, 1e-6);
-    EXPECT_NEAR((J_to - numeric_to).cwiseAbs().maxCoeff(), 0.0, 1e-6);
+TEST(RelativePoseQuaternion, TakesTheShorterWayRound) {
+  const RelativePoseQuaternionFactor factor(KeyframeId{1}, KeyframeId{2}, Pose::Identity(),
+                                            Matrix6::Identity());
+  for (const double angle_rad : {-3.0, -2.0, 2.0, 3.0, 3.5, 4.0}) {
+    const Pose T = expPose((Tangent() << Eigen::Vector3d::Zero(), 0.0, 0.0, angle_rad).finished());
+    const double shorter_rad = std::remainder(angle_rad, 2.0 * M_PI);
+    const auto e = factor.evaluate(Pose::Identity(), T, nullptr, nullptr);
+    EXPECT_NEAR(e(5), std::sin(0.5 * shorter_rad), 1e-12) << angle_rad;
   }
 }
 

@@ -18,7 +18,24 @@ inline Eigen::Matrix3d inverseRightJacobian(const Eigen::Vector3d& theta) {
   return Eigen::Matrix3d::Identity() + 0.5 * k + b * k * k;
 }
 
-/// Two keyframes and the relative pose measured between them (an edge within the keyframes layer):
+/// How the error pose E = Z^-1 T_map_from^-1 T_map_to changes with both poses, its rotation measured
+/// by a residual r(E) of three rows with d r = J_rotation dtheta for E exp(dtheta).
+inline void relativePoseJacobians(const Pose& measured_from_to, const Pose& T_from_to,
+                                  const Pose& error, const Eigen::Matrix3d& J_rotation,
+                                  Matrix6* J_from, Matrix6* J_to) {
+  if (J_from != nullptr) {
+    const Eigen::Matrix3d R_to_from = T_from_to.linear().transpose();
+    const Eigen::Matrix3d R_z_from = measured_from_to.linear().transpose();
+    *J_from << -R_z_from, R_z_from * skew(T_from_to.translation()),  //
+        Eigen::Matrix3d::Zero(), -J_rotation * R_to_from;
+  }
+  if (J_to != nullptr) {
+    *J_to << error.linear(), Eigen::Matrix3d::Zero(),  //
+        Eigen::Matrix3d::Zero(), J_rotation;
+  }
+}
+
+/// Two poses and the relative pose measured between them:
 ///
 ///     e = log( Z^-1 T_map_from^-1 T_map_to )     3 rows, m; 3 rows, rad      e in R^6
 ///
@@ -31,26 +48,18 @@ inline Tangent relativePoseResidual(const Pose& measured_from_to, const Pose& T_
   const Pose T_from_to = T_map_from.inverse() * T_map_to;
   const Pose error = measured_from_to.inverse() * T_from_to;
   const Tangent e = logPose(error);
-  if (J_from == nullptr && J_to == nullptr) return e;
-
-  const Eigen::Matrix3d J_log = inverseRightJacobian(e.tail<3>());
-  const Eigen::Matrix3d R_to_from = T_from_to.linear().transpose();
-  const Eigen::Matrix3d R_z_from = measured_from_to.linear().transpose();
-  if (J_from != nullptr) {
-    *J_from << -R_z_from, R_z_from * skew(T_from_to.translation()),  //
-        Eigen::Matrix3d::Zero(), -J_log * R_to_from;
-  }
-  if (J_to != nullptr) {
-    *J_to << error.linear(), Eigen::Matrix3d::Zero(),  //
-        Eigen::Matrix3d::Zero(), J_log;
+  if (J_from != nullptr || J_to != nullptr) {
+    relativePoseJacobians(measured_from_to, T_from_to, error, inverseRightJacobian(e.tail<3>()),
+                          J_from, J_to);
   }
   return e;
 }
 
-/// Odometry, a loop closure, or the paper's bridge over marginalized keyframes.
+/// Odometry, a loop closure, the paper's bridge over marginalized keyframes, or where a keyframe has
+/// the room that it is in (room_walls.h).
 class RelativePoseFactor final : public ResidualFactor<6, Pose, Pose> {
  public:
-  enum class Kind { kOdometry, kLoopClosure, kBridge };
+  enum class Kind { kOdometry, kLoopClosure, kBridge, kRoom };
 
   /// @param information  Inverse covariance of the right perturbation of T_from_to, `[t; theta]`.
   RelativePoseFactor(NodeId from, NodeId to, const Pose& T_from_to, const Matrix6& information,
@@ -58,7 +67,7 @@ class RelativePoseFactor final : public ResidualFactor<6, Pose, Pose> {
       : ResidualFactor({from, to}, information, kernel), T_from_to(T_from_to), kind(kind) {}
 
   const char* type() const override {
-    constexpr const char* kTypes[] = {"odometry", "loop_closure", "bridge"};
+    constexpr const char* kTypes[] = {"odometry", "loop_closure", "bridge", "room_pose"};
     return kTypes[static_cast<int>(kind)];
   }
 

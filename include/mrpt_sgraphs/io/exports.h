@@ -9,7 +9,7 @@
 
 namespace mrpt_sgraphs {
 
-/// graph.json: versioned and lossless; docs/graph.schema.json describes it.
+/// graph.json: versioned and lossless; docs/graph.schema.json describes it, readGraphJson reads it.
 void writeGraphJson(const GraphSnapshot& graph, std::ostream& out);
 
 /// The pose layer in the g2o text format (VERTEX_SE3:QUAT, EDGE_SE3:QUAT, FIX), 17 digits. g2o's

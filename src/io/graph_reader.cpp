@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mrpt_sgraphs/io/graph_reader.h"
+
+#include <stdexcept>
+
+#include "factor_json.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+/// What the graph refuses, with the place in the file.
+template <typename Action>
+void at(const JsonPlace& place, const Action& action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    place.fail(std::string("is refused: ") + error.what());
+  }
+}
+
+template <typename AnyId>
+std::optional<AnyId> idOrNull(const JsonPlace& place) {
+  if (place.isNull()) return std::nullopt;
+  return AnyId{place.id()};
+}
+
+std::vector<Eigen::Vector3d> polygon(const JsonPlace& place) {
+  std::vector<Eigen::Vector3d> corners;
+  for (std::size_t k = 0; k < place.size(); ++k) corners.emplace_back(place[k].vector(3));
+  return corners;
+}
+
+RoomAttributes::Kind kindOf(const JsonPlace& place) {
+  const std::string kind = place.string();
+  if (kind == "four_walls") return RoomAttributes::Kind::kFourWalls;
+  if (kind == "corridor") return RoomAttributes::Kind::kCorridor;
+  if (kind == "polygon") return RoomAttributes::Kind::kPolygon;
+  place.fail("is none of four_walls, corridor, polygon");
+}
+
+void addKeyframe(const JsonPlace& place, SituationalGraph* graph) {
+  const KeyframeId id{place["id"].id()};
+  KeyframeAttributes attributes;
+  attributes.stamp_s = place["stamp"].number();
+  attributes.T_odom_base = place["odometry"].pose();
+  attributes.floor = idOrNull<FloorId>(place["floor"]);
+  attributes.room = idOrNull<RoomId>(place["room"]);
+  attributes.marginalized = place["marginalized"].boolean();
+  const KeyframeId representative{place["representative"].id()};
+  if (representative != id) attributes.representative = representative;
+  graph->restoreKeyframe(id, place["pose"].pose(), attributes);
+}
+
+void addWall(const JsonPlace& place, SituationalGraph* graph) {
+  WallAttributes attributes;
+  attributes.polygon_map = polygon(place["polygon"]);
+  graph->restoreWall(WallId{place["id"].id()}, place["plane"].plane(), attributes);
+}
+
+void addRoom(const JsonPlace& place, SituationalGraph* graph) {
+  RoomAttributes attributes;
+  attributes.kind = kindOf(place["kind"]);
+  const JsonPlace walls = place["walls"];
+  for (std::size_t k = 0; k < walls.size(); ++k) attributes.walls.push_back({walls[k].id()});
+  attributes.floor = idOrNull<FloorId>(place["floor"]);
+  attributes.size_m = place["size"].vector(2);
+  attributes.name = place["name"].string();
+  attributes.polygon_map = polygon(place["polygon"]);
+  graph->restoreRoom(RoomId{place["id"].id()}, place["pose"].pose(), attributes);
+}
+
+void addFloor(const JsonPlace& place, SituationalGraph* graph) {
+  FloorAttributes attributes;
+  attributes.centre_map = place["centre"].vector(3);
+  attributes.name = place["name"].string();
+  graph->restoreFloor(FloorId{place["id"].id()}, place["plane"].plane(), attributes);
+}
+
+void requireNode(const SituationalGraph& graph, NodeId node, const JsonPlace& place) {
+  if (!graph.contains(node)) place.fail("refers to " + nameOf(node) + ", which is not in the file");
+}
+
+/// What nodes say of each other, when all are there.
+void requireReferences(const SituationalGraph& graph, const JsonPlace& document) {
+  const JsonPlace keyframes = document["keyframes"];
+  for (std::size_t k = 0; k < keyframes.size(); ++k) {
+    const KeyframeAttributes& keyframe = graph.attributes(KeyframeId{keyframes[k]["id"].id()});
+    if (keyframe.floor) requireNode(graph, *keyframe.floor, keyframes[k]);
+    if (keyframe.room) requireNode(graph, *keyframe.room, keyframes[k]);
+    if (keyframe.representative) requireNode(graph, *keyframe.representative, keyframes[k]);
+  }
+  const JsonPlace rooms = document["rooms"];
+  for (std::size_t k = 0; k < rooms.size(); ++k) {
+    const RoomAttributes& room = graph.attributes(RoomId{rooms[k]["id"].id()});
+    if (room.floor) requireNode(graph, *room.floor, rooms[k]);
+    for (const WallId wall : room.walls) requireNode(graph, wall, rooms[k]);
+  }
+}
+
+template <typename Add>
+void addAll(const JsonPlace& list, const Add& add) {
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const JsonPlace place = list[k];
+    at(place, [&] { add(place); });
+  }
+}
+
+Json parsed(std::istream& in, const std::string& name) {
+  try {
+    return Json::parse(in);
+  } catch (const Json::exception& error) {
+    throw std::runtime_error(name + ": is no JSON: " + error.what());
+  }
+}
+
+}  // namespace
+
+SituationalGraph readGraphJson(std::istream& in, const std::string& name) {
+  const Json json = parsed(in, name);
+  const JsonPlace document(json, name.c_str());
+  if (document["format"].string() != "mrpt_sgraphs/graph") {
+    document["format"].fail("is not mrpt_sgraphs/graph");
+  }
+  const uint64_t version = document["version"].id();
+  if (version != 1 && version != 2) {
+    document["version"].fail("is " + std::to_string(version) + ": only 1 and 2 can be read");
+  }
+
+  SituationalGraph graph;
+  graph.setMapOdom(document["map_odom"].pose());
+  addAll(document["floors"], [&](const JsonPlace& place) { addFloor(place, &graph); });
+  addAll(document["walls"], [&](const JsonPlace& place) { addWall(place, &graph); });
+  addAll(document["rooms"], [&](const JsonPlace& place) { addRoom(place, &graph); });
+  addAll(document["keyframes"], [&](const JsonPlace& place) { addKeyframe(place, &graph); });
+  requireReferences(graph, document);
+  addAll(document["factors"], [&](const JsonPlace& place) { graph.addFactor(factorFrom(place)); });
+  return graph;
+}
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <map>
+
+#include "factor_json.h"
+#include "mrpt_sgraphs/io/exports.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+constexpr int kGraphVersion = 2;
+
+template <typename AnyId>
+Json idOrNull(const std::optional<AnyId>& id) {
+  return id ? Json(id->value) : Json(nullptr);
+}
+
+template <typename AnyId>
+Json listOf(const std::vector<AnyId>& ids) {
+  Json list = Json::array();
+  for (const AnyId id : ids) list.push_back(id.value);
+  return list;
+}
+
+Json polygon(const std::vector<Eigen::Vector3d>& corners_map) {
+  Json list = Json::array();
+  for (const Eigen::Vector3d& corner : corners_map) list.push_back(toJson(Eigen::VectorXd(corner)));
+  return list;
+}
+
+Json nodeJson(const KeyframeNode& keyframe) {
+  return {{"id", keyframe.id.value},
+          {"stamp", keyframe.stamp_s},
+          {"pose", toJson(keyframe.T_map_base)},
+          {"odometry", toJson(keyframe.T_odom_base)},
+          {"floor", idOrNull(keyframe.floor)},
+          {"room", idOrNull(keyframe.room)},
+          {"marginalized", keyframe.marginalized},
+          {"representative", keyframe.representative.value_or(keyframe.id).value}};
+}
+
+Json nodeJson(const WallNode& wall) {
+  return {{"id", wall.id.value},
+          {"plane", toJson(wall.plane_map)},
+          {"polygon", polygon(wall.polygon_map)}};
+}
+
+Json nodeJson(const RoomNode& room, const std::vector<KeyframeId>& keyframes) {
+  constexpr const char* kKinds[] = {"four_walls", "corridor", "polygon"};
+  return {{"id", room.id.value},
+          {"pose", toJson(room.T_map_room)},
+          {"kind", kKinds[static_cast<int>(room.kind)]},
+          {"walls", listOf(room.walls)},
+          {"floor", idOrNull(room.floor)},
+          {"keyframes", listOf(keyframes)},
+          {"size", toJson(Eigen::VectorXd(room.size_m))},
+          {"name", room.name},
+          {"polygon", polygon(room.polygon_map)}};
+}
+
+Json nodeJson(const FloorNode& floor) {
+  return {{"id", floor.id.value},
+          {"plane", toJson(floor.ground_map)},
+          {"centre", toJson(Eigen::VectorXd(floor.centre_map))},
+          {"name", floor.name}};
+}
+
+}  // namespace
+
+void writeGraphJson(const GraphSnapshot& graph, std::ostream& out) {
+  std::map<RoomId, std::vector<KeyframeId>> keyframes_in;
+  Json document{{"format", "mrpt_sgraphs/graph"},
+                {"version", kGraphVersion},
+                {"map_odom", toJson(graph.T_map_odom)}};
+  for (const char* list : {"keyframes", "walls", "rooms", "floors", "factors"}) {
+    document[list] = Json::array();
+  }
+  for (const KeyframeNode& keyframe : graph.keyframes) {
+    document["keyframes"].push_back(nodeJson(keyframe));
+    if (keyframe.room) keyframes_in[*keyframe.room].push_back(keyframe.id);
+  }
+  for (const WallNode& wall : graph.walls) document["walls"].push_back(nodeJson(wall));
+  for (const RoomNode& room : graph.rooms) {
+    document["rooms"].push_back(nodeJson(room, keyframes_in[room.id]));
+  }
+  for (const FloorNode& floor : graph.floors) document["floors"].push_back(nodeJson(floor));
+  for (const StoredFactor& stored : graph.factors) {
+    document["factors"].push_back(toJson(*stored.factor));
+  }
+  out << document.dump(1) << '\n';
+}
+
+}  // namespace mrpt_sgraphs
