@@ -205,12 +205,50 @@ MRPT_SGRAPHS_INLINE void eliminateBody(const FrontView& front, const double* min
   }
 }
 
+/// Pairs of x and y multiplied and added up.
+MRPT_SGRAPHS_INLINE double dot(const double* x, const double* y, int size) {
+  Vector sum[2] = {broadcast(0.0), broadcast(0.0)};
+  int i = 0;
+  for (; i + 2 * kVectorSize <= size; i += 2 * kVectorSize) {
+    sum[0] += load(x + i) * load(y + i);
+    sum[1] += load(x + i + kVectorSize) * load(y + i + kVectorSize);
+  }
+  if (i + kVectorSize <= size) {
+    sum[0] += load(x + i) * load(y + i);
+    i += kVectorSize;
+  }
+  const Vector all = sum[0] + sum[1];
+  double rest = 0.0;
+  for (; i < size; ++i) rest += x[i] * y[i];
+  return ((all[0] + all[1]) + (all[2] + all[3])) + rest;
+}
+
+MRPT_SGRAPHS_INLINE void substituteBody(const double* panel, int pivots, int rows,
+                                        const double* right, const double* later, double* own) {
+  const long ld = FrontView::panelStride(pivots, rows);
+  for (int k = pivots - 1; k >= 0; --k) {
+    const double* column = panel + k * ld;
+    own[k] = (right[k] - dot(column + pivots, later, rows) -
+              dot(column + k + 1, own + k + 1, pivots - k - 1)) / column[k];
+  }
+}
+
 void eliminatePortable(const FrontView& front, const double* min_pivots,
                        EliminationScratch* scratch, std::vector<LostPivot>* lost) {
   eliminateBody(front, min_pivots, scratch, lost);
 }
 
+void substitutePortable(const double* panel, int pivots, int rows, const double* right,
+                        const double* later, double* own) {
+  substituteBody(panel, pivots, rows, right, later, own);
+}
+
 #ifdef MRPT_SGRAPHS_WIDE
+MRPT_SGRAPHS_WIDE void substituteWide(const double* panel, int pivots, int rows,
+                                      const double* right, const double* later, double* own) {
+  substituteBody(panel, pivots, rows, right, later, own);
+}
+
 MRPT_SGRAPHS_WIDE void eliminateWide(const FrontView& front, const double* min_pivots,
                                      EliminationScratch* scratch, std::vector<LostPivot>* lost) {
   eliminateBody(front, min_pivots, scratch, lost);
@@ -240,6 +278,14 @@ void eliminatePivots(const FrontView& front, const double* min_pivots, Eliminati
   if (usesWideVectors()) return eliminateWide(front, min_pivots, scratch, lost);
 #endif
   eliminatePortable(front, min_pivots, scratch, lost);
+}
+
+void substituteBack(const double* panel, int pivots, int rows, const double* right,
+                    const double* later, double* own) {
+#ifdef MRPT_SGRAPHS_WIDE
+  if (usesWideVectors()) return substituteWide(panel, pivots, rows, right, later, own);
+#endif
+  substitutePortable(panel, pivots, rows, right, later, own);
 }
 
 }  // namespace mrpt_sgraphs

@@ -58,6 +58,12 @@ struct EliminationScratch {
 void eliminatePivots(const FrontView& front, const double* min_pivots, EliminationScratch* scratch,
                      std::vector<LostPivot>* lost);
 
+/// The pivots' part of the solution of L' x = right, for a panel that eliminatePivots has made.
+/// @param later  x of the front's rows.
+/// @param own    Gets x of its pivots.
+void substituteBack(const double* panel, int pivots, int rows, const double* right,
+                    const double* later, double* own);
+
 /// True if this machine's wider vectors are used.
 bool usesWideVectors();
 

@@ -12,7 +12,7 @@ namespace mrpt_sgraphs {
 namespace {
 
 /// Operations a tangent from which on nested dissection is tried: tiny fronts stay far below it.
-constexpr double kHeavyFill_flops = 3e4;
+constexpr double kHeavyFill_flops = 1e4;
 /// Fewer operations are not shared among threads.
 constexpr double kMinParallel_flops = 2e6;
 constexpr double kSubtreeShare = 1.0 / 16.0;

@@ -26,7 +26,7 @@ constexpr int kSampledFronts = 16;
 
 /// Less than this share of a diagonal entry left as its pivot is what rounding leaves of nothing. A
 /// chain of 50 000 keyframes held at one end keeps about 1e-13.
-constexpr double kMinPivotShare = 1e-14;
+constexpr double kMinPivotShare = 5e-14;
 /// More than this share below zero is not rounding but a factor that rewards what it should punish.
 constexpr double kIndefiniteShare = 1e-9;
 
@@ -143,9 +143,9 @@ NormalEquations::NormalEquations(const Problem& problem) : structure_(structureO
   free_variables_ = std::move(ordered);
 
   assignFactors(problem);
-  panels_.resize(plan_.panel_memory);
-  updates_.resize(plan_.update_memory);
-  diagonal_.resize(static_cast<std::size_t>(tangents()));
+  panels_.reset(new double[plan_.panel_memory]);  // not initialized: each sweep does that
+  updates_.reset(new double[plan_.update_memory]);
+  scales_.resize(static_cast<std::size_t>(tangents()));
   front_cost_.resize(plan_.fronts.size());
   front_decrease_.resize(plan_.fronts.size());
 }
@@ -220,8 +220,8 @@ void NormalEquations::bind(const Problem& problem) {
 
 FrontView NormalEquations::viewOf(const Front& front) {
   FrontView view;
-  view.panel = panels_.data() + front.panel;
-  view.update = updates_.data() + front.update;
+  view.panel = panels_.get() + front.panel;
+  view.update = updates_.get() + front.update;
   view.pivots = front.pivots;
   view.rows = front.rows;
   return view;
@@ -277,7 +277,7 @@ void NormalEquations::assemble(int index, const FrontView& view, double* pivot_d
 
 void NormalEquations::extendAdd(const Front& child, const Front& parent, const FrontView& view,
                                 double* pivot_diagonal, double* row_diagonal) {
-  const double* const update = updates_.data() + child.update;
+  const double* const update = updates_.get() + child.update;
   const int child_ld = padded(child.rows + 1);
   const double* const child_diagonal = update + FrontView::updateSize(child.rows);
   const int p = view.pivots;
@@ -308,6 +308,18 @@ void NormalEquations::extendAdd(const Front& child, const Front& parent, const F
   }
 }
 
+/// Metres with metres and radians with radians: neither damping nor the test for zero may depend on
+/// how a body's axes lie.
+void NormalEquations::useLargestOfEachUnit(const Front& front, double* diagonal) const {
+  for (int v = front.first_variable; v < front.first_variable + front.variables; ++v) {
+    const int size = plan_.tangent[v + 1] - plan_.tangent[v];
+    double* const first = diagonal + (plan_.tangent[v] - front.first_pivot);
+    double* const second = first + (size == 6 ? 3 : 2);  // [t; theta], [a b; d]
+    std::fill(first, second, *std::max_element(first, second));
+    std::fill(second, first + size, *std::max_element(second, first + size));
+  }
+}
+
 void NormalEquations::processFront(int index, double damping, Worker* worker) {
   const Front& front = plan_.fronts[index];
   const FrontView view = viewOf(front);
@@ -315,7 +327,7 @@ void NormalEquations::processFront(int index, double damping, Worker* worker) {
   const Clock::time_point start = sampled ? Clock::now() : Clock::time_point();
   const std::size_t panel_size = FrontView::panelSize(front.pivots, front.rows);
   const std::size_t update_size = FrontView::updateSize(front.rows);
-  double* const pivot_diagonal = diagonal_.data() + front.first_pivot;
+  double* const pivot_diagonal = scales_.data() + front.first_pivot;
   double* const row_diagonal = view.update + update_size;
   std::memset(view.panel, 0, panel_size * sizeof(double));
   std::memset(view.update, 0, (update_size + static_cast<std::size_t>(front.rows)) * sizeof(double));
@@ -327,6 +339,8 @@ void NormalEquations::processFront(int index, double damping, Worker* worker) {
     extendAdd(plan_.fronts[plan_.children[front.first_child + c]], front, view, pivot_diagonal,
               row_diagonal);
   }
+
+  useLargestOfEachUnit(front, pivot_diagonal);
 
   const int ld = view.panelStride();
   worker->min_pivots.resize(static_cast<std::size_t>(front.pivots));
@@ -378,6 +392,7 @@ NormalEquations::Sweep NormalEquations::factorize(double damping, int threads) {
   workers[0].cpu_ms += top.lap();
 
   Sweep sweep;
+  for (std::size_t t = 1; t < count; ++t) sweep.other_threads_ms += workers[t].cpu_ms;
   for (const Worker& worker : workers) {
     const double share =
         worker.sampled_s > 0.0 ? worker.sampled_linearize_s / worker.sampled_s : 0.0;
@@ -400,45 +415,36 @@ NormalEquations::Sweep NormalEquations::factorize(double damping, int threads) {
 }
 
 void NormalEquations::solve(std::vector<double>* step) const {
-  step->assign(static_cast<std::size_t>(tangents()), 0.0);
-  std::vector<double> later;
-  for (std::size_t f = plan_.fronts.size(); f-- > 0;) {
-    const Front& front = plan_.fronts[f];
-    const double* const panel = panels_.data() + front.panel;
+  substitute([](const Front& front, const double* panel, double* right) {
     const int ld = FrontView::panelStride(front.pivots, front.rows);
-    later.resize(static_cast<std::size_t>(front.rows));
-    for (int r = 0; r < front.rows; ++r) later[r] = (*step)[plan_.rows[front.first_row + r]];
-    double* const own = step->data() + front.first_pivot;
-    for (int k = front.pivots - 1; k >= 0; --k) {
-      const double* const column = panel + static_cast<std::ptrdiff_t>(k) * ld;
-      double left = column[front.pivots + front.rows];
-      for (int r = 0; r < front.rows; ++r) left -= column[front.pivots + r] * later[r];
-      for (int r = k + 1; r < front.pivots; ++r) left -= column[r] * own[r];
-      own[k] = left / column[k];
+    for (int k = 0; k < front.pivots; ++k) {
+      right[k] = panel[static_cast<std::ptrdiff_t>(k) * ld + front.pivots + front.rows];
     }
-  }
+  }, step);
 }
 
 void NormalEquations::freeDirection(int held, std::vector<double>* step) const {
-  step->assign(static_cast<std::size_t>(tangents()), 0.0);
+  substitute([held](const Front& front, const double*, double* right) {
+    std::fill(right, right + front.pivots, 0.0);
+    const int own = held - front.first_pivot;  // its column is that of the identity
+    if (own >= 0 && own < front.pivots) right[own] = 1.0;
+  }, step);
+}
+
+template <typename RightHandSide>
+void NormalEquations::substitute(const RightHandSide& fill, std::vector<double>* step) const {
+  step->resize(static_cast<std::size_t>(tangents()));
+  std::vector<double> later;
+  std::vector<double> right;
   for (std::size_t f = plan_.fronts.size(); f-- > 0;) {
     const Front& front = plan_.fronts[f];
-    const double* const panel = panels_.data() + front.panel;
-    const int ld = FrontView::panelStride(front.pivots, front.rows);
-    for (int k = front.pivots - 1; k >= 0; --k) {
-      const int tangent = front.first_pivot + k;
-      if (tangent == held) {
-        (*step)[tangent] = 1.0;
-        continue;
-      }
-      const double* const column = panel + static_cast<std::ptrdiff_t>(k) * ld;
-      double left = 0.0;
-      for (int r = k + 1; r < front.pivots; ++r) left -= column[r] * (*step)[front.first_pivot + r];
-      for (int r = 0; r < front.rows; ++r) {
-        left -= column[front.pivots + r] * (*step)[plan_.rows[front.first_row + r]];
-      }
-      (*step)[tangent] = left / column[k];
-    }
+    const double* const panel = panels_.get() + front.panel;
+    later.resize(static_cast<std::size_t>(front.rows));
+    right.resize(static_cast<std::size_t>(front.pivots));
+    for (int r = 0; r < front.rows; ++r) later[r] = (*step)[plan_.rows[front.first_row + r]];
+    fill(front, panel, right.data());
+    substituteBack(panel, front.pivots, front.rows, right.data(), later.data(),
+                   step->data() + front.first_pivot);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "dense_kernels.h"
@@ -34,12 +35,13 @@ class NormalEquations {
     double decrease = 0.0;  ///< g' (H + D)^-1 g: that of the quadratic model, if undamped.
     double linearize_ms = 0.0;  ///< CPU of all threads
     double factorize_ms = 0.0;  ///< CPU of all threads
+    double other_threads_ms = 0.0;  ///< CPU, of all but the calling one.
     /// Tangents that nothing determines once those before them are known. They are held.
     std::vector<int> held;
     bool indefinite = false;  ///< A pivot was clearly negative, or not a number.
   };
 
-  /// @param damping  The diagonal of H is multiplied by 1 + damping.
+  /// @param damping  D = damping * scales() is added to the diagonal of H.
   Sweep factorize(double damping, int threads);
 
   /// The step of all tangents, in elimination order, by back substitution.
@@ -55,8 +57,9 @@ class NormalEquations {
   double cost() const;
 
   int tangents() const { return plan_.tangent.back(); }
-  /// Diagonal of H as of the last sweep, in elimination order.
-  const std::vector<double>& diagonal() const { return diagonal_; }
+  /// What damping is relative to, in elimination order: the diagonal of H as of the last sweep, the
+  /// largest entry for all tangents of a variable that have the same unit.
+  const std::vector<double>& scales() const { return scales_; }
   /// The variable of a tangent.
   int variableOf(int tangent) const;
   const EliminationPlan& plan() const { return plan_; }
@@ -81,6 +84,10 @@ class NormalEquations {
                 Worker* worker);
   void extendAdd(const Front& child, const Front& parent, const FrontView& view,
                  double* pivot_diagonal, double* row_diagonal);
+  void useLargestOfEachUnit(const Front& front, double* diagonal) const;
+  /// Back substitution, the right-hand side of each front's pivots given by `fill`.
+  template <typename RightHandSide>
+  void substitute(const RightHandSide& fill, std::vector<double>* step) const;
   FrontView viewOf(const Front& front);
 
   std::vector<int> structure_;  ///< What fits() compares.
@@ -91,9 +98,9 @@ class NormalEquations {
   std::vector<BoundFactor> factors_;      ///< In that order.
   std::vector<End> ends_;
   int max_tangents_ = 0;
-  std::vector<double> panels_;
-  std::vector<double> updates_;
-  std::vector<double> diagonal_;    ///< Of H.
+  std::unique_ptr<double[]> panels_;
+  std::unique_ptr<double[]> updates_;
+  std::vector<double> scales_;
   std::vector<double> front_cost_;
   std::vector<double> front_decrease_;
 };

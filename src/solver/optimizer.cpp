@@ -76,7 +76,7 @@ class Optimizer::Impl {
       equations_.reset();
     }
     for (const int variable : held) problem->setFixed(variable, false);
-    report.total_ms = other_threads_ms_ + threadCpuMilliseconds() - start_ms;
+    report.total_ms += threadCpuMilliseconds() - start_ms;
     return report;
   }
 
@@ -135,6 +135,7 @@ class Optimizer::Impl {
       NormalEquations::Sweep result = equations_.factorize(damping, config_.threads);
       report_.linearize_ms += result.linearize_ms;
       report_.factorize_ms += result.factorize_ms;
+      report_.total_ms += result.other_threads_ms;
       if (damping == 0.0) held_ = result.held;
       return result;
     }
@@ -236,7 +237,7 @@ class Optimizer::Impl {
       double decrease = sweep_.decrease;
       if (damping_ > 0.0) {
         for (std::size_t k = 0; k < step_.size(); ++k) {
-          decrease += damping_ * equations_.diagonal()[k] * step_[k] * step_[k];
+          decrease += damping_ * equations_.scales()[k] * step_[k] * step_[k];
         }
       }
       return decrease;
@@ -277,7 +278,6 @@ class Optimizer::Impl {
   };
 
   std::unique_ptr<NormalEquations> equations_;
-  double other_threads_ms_ = 0.0;
 };
 
 Optimizer::Optimizer() : impl_(std::make_unique<Impl>()) {}

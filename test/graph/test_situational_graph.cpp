@@ -17,6 +17,7 @@ using test::stamped;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const Pose kNoMotion = Pose::Identity();
 
 Plane groundAt(double height_m) { return {Eigen::Vector3d::UnitZ(), height_m}; }
 
@@ -146,16 +147,17 @@ TEST(SituationalGraph, RefusesFactorsThatAreNone) {
   EXPECT_THROW(graph.addFactor(nullptr), std::invalid_argument);
   for (const FactorConstPtr& factor :
        {odometry(a, a), odometry(a, KeyframeId{9}), odometry(a, wall), odometry(a, b, nowhere),
-        odometry(a, b, {}, kNaN * Matrix6::Identity()),
-        odometry(a, b, {}, kInfinity * Matrix6::Identity()), odometry(a, b, {}, indefinite),
-        odometry(a, b, {}, asymmetric), sight(a, WallId{5}),
-        sight(a, wall, {Eigen::Vector3d::UnitX(), kNaN})}) {
+        odometry(a, b, kNoMotion, kNaN * Matrix6::Identity()),
+        odometry(a, b, kNoMotion, kInfinity * Matrix6::Identity()),
+        odometry(a, b, kNoMotion, indefinite), odometry(a, b, kNoMotion, asymmetric),
+        sight(a, WallId{5}), sight(a, wall, {Eigen::Vector3d::UnitX(), kNaN})}) {
     EXPECT_THROW(graph.addFactor(factor), std::invalid_argument);
   }
   EXPECT_EQ(graph.factorCount(), 0U);
   EXPECT_EQ(graph.network().edgeCount(), 0U);
   EXPECT_TRUE(graph.factorsOf(a).empty());
-  EXPECT_EQ(graph.addFactor(odometry(a, b, {}, Matrix6::Zero())), FactorId{0}) << "knows nothing";
+  EXPECT_EQ(graph.addFactor(odometry(a, b, kNoMotion, Matrix6::Zero())), FactorId{0})
+      << "knows nothing";
 }
 
 TEST(SituationalGraph, NamesTheNodesOfABadFactor) {
@@ -163,7 +165,7 @@ TEST(SituationalGraph, NamesTheNodesOfABadFactor) {
   const KeyframeId a = graph.addKeyframe(Pose::Identity(), {});
   const KeyframeId b = graph.addKeyframe(Pose::Identity(), {});
   try {
-    graph.addFactor(odometry(a, b, {}, -Matrix6::Identity()));
+    graph.addFactor(odometry(a, b, kNoMotion, -Matrix6::Identity()));
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),

@@ -140,8 +140,9 @@ class ResidualFactor : public Factor {
         [&] {
           constexpr int kColumns = kTangentSize<std::tuple_element_t<I, std::tuple<Variables...>>>;
           const auto& J_column = std::get<I>(jacobians);
-          const Eigen::Matrix<double, Rows, kColumns> weighted =
-              weight * (information_ * J_column);
+          Eigen::Matrix<double, Rows, kColumns> weighted;
+          weighted.noalias() = information_ * J_column;
+          if (weight != 1.0) weighted *= weight;
           gradient.template segment<kColumns>(column).noalias() = weighted.transpose() * e;
           int row = column;
           fillRows<I, 0>(jacobians, weighted, column, &row, &hessian);
