@@ -33,6 +33,22 @@ void requirePlane(const Plane& plane, NodeId node) {
 
 }  // namespace
 
+/// What `visit` makes of the nodes of a layer.
+template <typename Visit>
+auto SituationalGraph::inLayer(Layer layer, const Visit& visit) const {
+  switch (layer) {
+    case Layer::kKeyframe:
+      return visit(keyframes_);
+    case Layer::kWall:
+      return visit(walls_);
+    case Layer::kRoom:
+      return visit(rooms_);
+    case Layer::kFloor:
+      break;
+  }
+  return visit(floors_);
+}
+
 KeyframeId SituationalGraph::addKeyframe(const Pose& T_map_base,
                                          const KeyframeAttributes& attributes) {
   const KeyframeId id = keyframes_.nextId();
@@ -98,22 +114,17 @@ void SituationalGraph::eraseNode(NodeId node) {
   while (!topology_.others(place).empty()) eraseFactor(topology_.others(place).back().id);
   ++erasures_;
   topology_.eraseNode(place);
-  switch (place.layer) {
-    case Layer::kKeyframe:
-      writeMovedPoses();  // while their places are what they were
-      is_moved_.pop_back();
-      network_.eraseNode(place.slot);
-      keyframes_.erase(place.slot);
-      break;
-    case Layer::kWall:
-      walls_.erase(place.slot);
-      break;
-    case Layer::kRoom:
-      rooms_.erase(place.slot);
-      break;
-    case Layer::kFloor:
-      floors_.erase(place.slot);
-      break;
+  if (place.layer == Layer::kKeyframe) {
+    writeMovedPoses();  // while their places are what they were
+    is_moved_.pop_back();
+    network_.eraseNode(place.slot);
+    keyframes_.erase(place.slot);
+  } else if (place.layer == Layer::kWall) {
+    walls_.erase(place.slot);
+  } else if (place.layer == Layer::kRoom) {
+    rooms_.erase(place.slot);
+  } else {
+    floors_.erase(place.slot);
   }
   snapshot_.reset();
 }
@@ -177,17 +188,7 @@ std::vector<NodeHandle> SituationalGraph::validated(const FactorConstPtr& factor
 }
 
 bool SituationalGraph::contains(NodeId node) const {
-  switch (node.layer) {
-    case Layer::kKeyframe:
-      return keyframes_.contains(KeyframeId{node.value});
-    case Layer::kWall:
-      return walls_.contains(WallId{node.value});
-    case Layer::kRoom:
-      return rooms_.contains(RoomId{node.value});
-    case Layer::kFloor:
-      return floors_.contains(FloorId{node.value});
-  }
-  return false;
+  return inLayer(node.layer, [&](const auto& nodes) { return nodes.contains({node.value}); });
 }
 
 void SituationalGraph::setMapOdom(const Pose& T_map_odom) {
@@ -216,45 +217,16 @@ void SituationalGraph::setAttributes(FloorId id, const FloorAttributes& attribut
 }
 
 std::size_t SituationalGraph::size(Layer layer) const {
-  switch (layer) {
-    case Layer::kKeyframe:
-      return keyframes_.size();
-    case Layer::kWall:
-      return walls_.size();
-    case Layer::kRoom:
-      return rooms_.size();
-    case Layer::kFloor:
-      return floors_.size();
-  }
-  return 0;
+  return inLayer(layer, [](const auto& nodes) { return nodes.size(); });
 }
 
 NodeHandle SituationalGraph::handle(NodeId node) const {
-  switch (node.layer) {
-    case Layer::kKeyframe:
-      return {node.layer, slotOf(KeyframeId{node.value})};
-    case Layer::kWall:
-      return {node.layer, slotOf(WallId{node.value})};
-    case Layer::kRoom:
-      return {node.layer, slotOf(RoomId{node.value})};
-    case Layer::kFloor:
-      break;
-  }
-  return {node.layer, slotOf(FloorId{node.value})};
+  return {node.layer,
+          inLayer(node.layer, [&](const auto& nodes) { return nodes.slot({node.value}); })};
 }
 
 NodeId SituationalGraph::nodeAt(NodeHandle node) const {
-  switch (node.layer) {
-    case Layer::kKeyframe:
-      return keyframes_[node.slot].id;
-    case Layer::kWall:
-      return walls_[node.slot].id;
-    case Layer::kRoom:
-      return rooms_[node.slot].id;
-    case Layer::kFloor:
-      break;
-  }
-  return floors_[node.slot].id;
+  return inLayer(node.layer, [&](const auto& nodes) { return NodeId(nodes[node.slot].id); });
 }
 
 Pose SituationalGraph::pose(NodeHandle node) const {

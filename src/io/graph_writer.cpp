@@ -88,7 +88,8 @@ void writeGraphJson(const GraphSnapshot& graph, std::ostream& out) {
   for (const StoredFactor& stored : graph.factors) {
     document["factors"].push_back(toJson(*stored.factor));
   }
-  out << document.dump(1) << '\n';
+  // a name that is no UTF-8 must not cost the file
+  out << document.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
 }  // namespace mrpt_sgraphs

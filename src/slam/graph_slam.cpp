@@ -3,24 +3,66 @@
 
 #include "mrpt_sgraphs/slam/graph_slam.h"
 
-#include <map>
 #include <stdexcept>
 #include <string>
 
-#include "mrpt_sgraphs/graph/situational_graph.h"
+#include "mrpt_sgraphs/hierarchy/optimize_selection.h"
 
 namespace mrpt_sgraphs {
+namespace {
+
+/// "keyframe 7 and 3 more nodes may move in 6 directions that no factor holds"
+std::string sentence(const GaugeFreedom& freedom) {
+  std::string text = nameOf(freedom.nodes.empty() ? freedom.held : freedom.nodes.front());
+  if (freedom.nodes.size() > 1) {
+    text += " and " + std::to_string(freedom.nodes.size() - 1) + " more nodes";
+  }
+  return text + " may move in " + std::to_string(freedom.dimensions) +
+         " directions that no factor holds";
+}
+
+OptimizationSummary summaryOf(const OptimizerReport& report, const SituationalGraph& graph) {
+  OptimizationSummary summary;
+  summary.kind = "full";
+  summary.mode = "baseline";
+  for (uint32_t slot = 0; slot < graph.size(Layer::kKeyframe); ++slot) {
+    const KeyframeId id{graph.nodeAt({Layer::kKeyframe, slot}).value};
+    ++(graph.attributes(id).marginalized ? summary.keyframes_marginalized
+                                         : summary.keyframes_active);
+  }
+  summary.walls = static_cast<int>(graph.size(Layer::kWall));
+  summary.rooms = static_cast<int>(graph.size(Layer::kRoom));
+  summary.floors = static_cast<int>(graph.size(Layer::kFloor));
+  summary.factors = report.factors;
+  summary.free_variables = report.free_tangents;
+  summary.iterations = report.iterations;
+  summary.cost_before = report.cost_before;
+  summary.cost_after = report.cost_after;
+  // where the answer is one of many there is nothing to converge to
+  summary.converged = report.converged && report.gauge.empty();
+  summary.problem = report.problem;
+  if (report.problem.empty() && !report.gauge.empty()) {
+    summary.problem = sentence(report.gauge.front());
+  }
+  summary.total_ms = report.total_ms;
+  summary.linearize_ms = report.linearize_ms;
+  summary.factorize_ms = report.factorize_ms;
+  return summary;
+}
+
+}  // namespace
 
 struct GraphSlam::State {
-  State(const LoopCloserConfig& loops, const PoseGraphOptimizerConfig& solver)
+  State(const LoopCloserConfig& loops, const SolverConfig& solver)
       : loop_closer(loops), solver(solver) {}
 
   SituationalGraph graph;
   LoopCloser loop_closer;
-  PoseGraphOptimizerConfig solver;
+  SolverConfig solver;
+  Optimizer optimizer;
 };
 
-GraphSlam::GraphSlam(const LoopCloserConfig& loops, const PoseGraphOptimizerConfig& solver)
+GraphSlam::GraphSlam(const LoopCloserConfig& loops, const SolverConfig& solver)
     : state_(std::make_unique<State>(loops, solver)) {}
 
 GraphSlam::~GraphSlam() = default;
@@ -63,30 +105,15 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
 
 OptimizationSummary GraphSlam::optimize() {
   SituationalGraph& graph = state_->graph;
-  const GraphSnapshotConstPtr now = graph.snapshot();
-  std::map<KeyframeId, Pose> poses;
-  for (const KeyframeNode& keyframe : now->keyframes) poses[keyframe.id] = keyframe.T_map_base;
-  std::vector<RelativePoseEdge> edges;
-  for (const StoredFactor& stored : now->factors) {
-    const RelativePoseFactor* const factor = keyframeEdge(*stored.factor);
-    if (factor == nullptr) continue;
-    RelativePoseEdge edge;
-    edge.from = KeyframeId{factor->node(0).value};
-    edge.to = KeyframeId{factor->node(1).value};
-    edge.T_from_to = factor->T_from_to;
-    edge.information = factor->information();
-    if (factor->kind == RelativePoseFactor::Kind::kLoopClosure) {
-      edge.kind = RelativePoseEdge::Kind::kLoopClosure;
-    }
-    edges.push_back(edge);
-  }
-
-  OptimizationSummary summary = optimizePoseGraph(edges, state_->solver, &poses);
-  for (const auto& [id, T_map_base] : poses) graph.setPose(id, T_map_base);
-  if (!poses.empty()) {
-    const KeyframeNode& newest = now->keyframes.back();
-    graph.setMapOdom(orthonormalized(graph.pose(newest.id) * newest.T_odom_base.inverse()));
-    summary.stamp_s = newest.stamp_s;
+  const OptimizerReport report =
+      optimizeSelection(selectAll(graph), state_->solver.optimizer, &state_->optimizer, &graph);
+  const uint32_t keyframes = static_cast<uint32_t>(graph.size(Layer::kKeyframe));
+  OptimizationSummary summary = summaryOf(report, graph);
+  if (keyframes > 0) {
+    const NodeHandle newest{Layer::kKeyframe, keyframes - 1};
+    const KeyframeAttributes& attributes = graph.attributes(KeyframeId{graph.nodeAt(newest).value});
+    summary.stamp_s = attributes.stamp_s;
+    graph.setMapOdom(orthonormalized(graph.pose(newest) * attributes.T_odom_base.inverse()));
   }
   return summary;
 }

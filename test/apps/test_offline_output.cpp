@@ -113,7 +113,7 @@ TEST_F(OfflineOutputTest, EveryScanHasAPoseThatIsRight) {
 TEST_F(OfflineOutputTest, GraphIsVersionedAndComplete) {
   const Json graph = this->graph();
   EXPECT_EQ(graph.at("format"), "mrpt_sgraphs/graph");
-  EXPECT_EQ(graph.at("version"), 1);
+  EXPECT_EQ(graph.at("version"), 2);
   for (const char* layer : {"walls", "rooms", "floors"}) {
     EXPECT_EQ(graph.at(layer), Json::array()) << layer;  // layers that do not exist yet
   }

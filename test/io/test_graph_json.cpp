@@ -257,5 +257,38 @@ TEST_F(GraphJsonTest, CutOffOrNotFiniteItIsRefused) {
   }
 }
 
+// Bytes changed, cut out and doubled at random: read, or refused with a word.
+TEST_F(GraphJsonTest, WhateverHappensToTheFileItIsReadOrRefused) {
+  const std::string good = Json::parse(written(graph_)).dump();
+  const auto below = [this](std::size_t limit) {
+    return static_cast<std::size_t>(std::abs(random_.number(0.999999)) *
+                                    static_cast<double>(limit));
+  };
+  const std::string bytes = "0123456789-+.eE[]{},:\"ntf \\\xff";
+  int refused = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    std::string text = good;
+    for (std::size_t change = 0; change <= below(3); ++change) {
+      const std::size_t place = below(text.size());
+      const std::size_t length = 1 + below(trial % 2 == 0 ? 1 : 60);
+      const std::size_t kind = below(3);
+      if (kind == 0) text[place] = bytes[below(bytes.size())];
+      if (kind == 1) text.erase(place, length);
+      if (kind == 2) text.insert(place, text.substr(place, length));
+    }
+    refused +=
+        complaint(text).empty() ? 0 : 1;  // anything else than a runtime_error fails the test
+  }
+  EXPECT_GT(refused, 500);
+  EXPECT_LT(refused, 1000);
+}
+
+TEST_F(GraphJsonTest, ANameThatIsNoTextDoesNotCostTheFile) {
+  FloorAttributes floor = graph_.attributes(FloorId{3});
+  floor.name = "\xff\xfe";
+  graph_.setAttributes(FloorId{3}, floor);
+  EXPECT_EQ(complaint(written(graph_)), "");
+}
+
 }  // namespace
 }  // namespace mrpt_sgraphs

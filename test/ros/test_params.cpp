@@ -83,7 +83,7 @@ TEST_F(ParamsTest, RefuseAMisspeltNameAndSayWhatWasMeant) {
 
 TEST_F(ParamsTest, RefuseANameThatIsNoneAndSayWhichThereAre) {
   give("solver/colour", 1.0);
-  EXPECT_EQ(refusal<PoseGraphOptimizerConfig>("solver").find(
+  EXPECT_EQ(refusal<SolverConfig>("solver").find(
                 "there is no parameter /params_test/solver/colour; there are max_iterations, "),
             0U);
 }
@@ -95,7 +95,7 @@ TEST_F(ParamsTest, RefuseValuesOutOfRange) {
   give("prefilter/min_range_m", std::nan(""));
   EXPECT_NE(refusal<PrefilterConfig>("prefilter"), "not refused");
   give("solver/max_iterations", 0);
-  EXPECT_EQ(refusal<PoseGraphOptimizerConfig>("solver"),
+  EXPECT_EQ(refusal<SolverConfig>("solver"),
             "/params_test/solver/max_iterations is 0, but must be a whole number between 1 and "
             "10000");
 }
@@ -106,7 +106,7 @@ TEST_F(ParamsTest, RefuseValuesOfAnotherType) {
             "/params_test/prefilter/min_range_m is the text 'near', but must be a number between 0 "
             "and 100");
   give("solver/max_iterations", 2.5);
-  EXPECT_NE(refusal<PoseGraphOptimizerConfig>("solver").find("must be a whole number"),
+  EXPECT_NE(refusal<SolverConfig>("solver").find("must be a whole number"),
             std::string::npos);
   give("loop_closure/enabled", 1);
   EXPECT_NE(refusal<LoopCloserConfig>("loop_closure").find("must be true or false"),

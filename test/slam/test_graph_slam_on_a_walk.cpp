@@ -35,7 +35,7 @@ class GraphSlamOnAWalk : public ::testing::Test {
   static void TearDownTestSuite() { delete drifting_; }
 
   static const std::vector<KeyframeWithTruth>* drifting_;
-  GraphSlam slam_{LoopCloserConfig{}, PoseGraphOptimizerConfig{}};
+  GraphSlam slam_{LoopCloserConfig{}, SolverConfig{}};
 };
 const std::vector<KeyframeWithTruth>* GraphSlamOnAWalk::drifting_ = nullptr;
 
@@ -95,7 +95,7 @@ TEST_F(GraphSlamOnAWalk, OdometryEdgesAreAsMeasured) {
     const RelativePoseFactor& edge = *keyframeEdge(*stored.factor);
     if (edge.kind == RelativePoseFactor::Kind::kLoopClosure) {
       EXPECT_EQ(edge.kernel().kind, RobustKernel::Kind::kCauchy);
-      EXPECT_EQ(edge.kernel().width_chi2, PoseGraphOptimizerConfig().loop_kernel_chi2);
+      EXPECT_EQ(edge.kernel().width_chi2, SolverConfig().loop_kernel_chi2);
       continue;
     }
     EXPECT_EQ(edge.kernel().kind, RobustKernel::Kind::kNone);
@@ -141,7 +141,7 @@ TEST_F(GraphSlamOnAWalk, GoesOnAfterKeyframesThatItRefused) {
 }
 
 TEST_F(GraphSlamOnAWalk, SameKeyframesSameGraph) {
-  GraphSlam other{LoopCloserConfig{}, PoseGraphOptimizerConfig{}};
+  GraphSlam other{LoopCloserConfig{}, SolverConfig{}};
   for (const KeyframeWithTruth& step : *drifting_) {
     slam_.addKeyframe(step.keyframe);
     other.addKeyframe(step.keyframe);

@@ -8,8 +8,8 @@
 
 namespace mrpt_sgraphs {
 
-/// A plane of the map, seen from a pose, against what was measured from there. The plane (n, d) of the
-/// map, seen from T_map_base = (R, t), is
+/// A plane of the map, seen from a pose, against what was measured from there. The plane (n, d) of
+/// the map, seen from T_map_base = (R, t), is
 ///
 ///     n_b = R' n,   d_b = d - n . t,
 ///

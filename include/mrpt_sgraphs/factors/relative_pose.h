@@ -18,8 +18,8 @@ inline Eigen::Matrix3d inverseRightJacobian(const Eigen::Vector3d& theta) {
   return Eigen::Matrix3d::Identity() + 0.5 * k + b * k * k;
 }
 
-/// How the error pose E = Z^-1 T_map_from^-1 T_map_to changes with both poses, its rotation measured
-/// by a residual r(E) of three rows with d r = J_rotation dtheta for E exp(dtheta).
+/// How the error pose E = Z^-1 T_map_from^-1 T_map_to changes with both poses, its rotation
+/// measured by a residual r(E) of three rows with d r = J_rotation dtheta for E exp(dtheta).
 inline void relativePoseJacobians(const Pose& measured_from_to, const Pose& T_from_to,
                                   const Pose& error, const Eigen::Matrix3d& J_rotation,
                                   Matrix6* J_from, Matrix6* J_to) {
@@ -39,8 +39,8 @@ inline void relativePoseJacobians(const Pose& measured_from_to, const Pose& T_fr
 ///
 ///     e = log( Z^-1 T_map_from^-1 T_map_to )     3 rows, m; 3 rows, rad      e in R^6
 ///
-/// with the pseudo-logarithm of `mrpt::poses::Lie::SE<3>`: the translation as it stands, the rotation
-/// vector below it. Jacobians with respect to right perturbations.
+/// with the pseudo-logarithm of `mrpt::poses::Lie::SE<3>`: the translation as it stands, the
+/// rotation vector below it. Jacobians with respect to right perturbations.
 ///
 /// Frames: both poses in `map`; the measurement Z = T_from_to.
 inline Tangent relativePoseResidual(const Pose& measured_from_to, const Pose& T_map_from,
@@ -55,8 +55,8 @@ inline Tangent relativePoseResidual(const Pose& measured_from_to, const Pose& T_
   return e;
 }
 
-/// Odometry, a loop closure, the paper's bridge over marginalized keyframes, or where a keyframe has
-/// the room that it is in (room_walls.h).
+/// Odometry, a loop closure, the paper's bridge over marginalized keyframes, or where a keyframe
+/// has the room that it is in (room_walls.h).
 class RelativePoseFactor final : public ResidualFactor<6, Pose, Pose> {
  public:
   enum class Kind { kOdometry, kLoopClosure, kBridge, kRoom };

@@ -109,6 +109,8 @@ class SituationalGraph {
   uint32_t slotOf(WallId id) const { return walls_.slot(id); }
   uint32_t slotOf(RoomId id) const { return rooms_.slot(id); }
   uint32_t slotOf(FloorId id) const { return floors_.slot(id); }
+  template <typename Visit>
+  auto inLayer(Layer layer, const Visit& visit) const;
   uint32_t factorSlot(FactorId id) const;
   std::vector<NodeHandle> validated(const FactorConstPtr& factor) const;
   void markMoved(uint32_t keyframe);

@@ -9,8 +9,8 @@
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
 #include "mrpt_sgraphs/graph/snapshot.h"
 #include "mrpt_sgraphs/semantics/loop_closer.h"
+#include "mrpt_sgraphs/slam/solver_config.h"
 #include "mrpt_sgraphs/solver/optimization_summary.h"
-#include "mrpt_sgraphs/solver/pose_graph_optimizer.h"
 
 namespace mrpt_sgraphs {
 
@@ -25,7 +25,7 @@ struct KeyframeOutcome {
 /// snapshots that it hands out.
 class GraphSlam {
  public:
-  GraphSlam(const LoopCloserConfig& loops, const PoseGraphOptimizerConfig& solver);
+  GraphSlam(const LoopCloserConfig& loops, const SolverConfig& solver);
   ~GraphSlam();
 
   /// Takes the keyframe into the graph, looks for loops and optimizes if there are any.

@@ -6,7 +6,7 @@
 #include "mrpt_sgraphs/frontend/odometry.h"
 #include "mrpt_sgraphs/frontend/prefilter.h"
 #include "mrpt_sgraphs/semantics/loop_closer.h"
-#include "mrpt_sgraphs/solver/pose_graph_optimizer.h"
+#include "mrpt_sgraphs/slam/solver_config.h"
 
 namespace mrpt_sgraphs {
 
@@ -17,7 +17,7 @@ struct SlamConfig {
   OdometryConfig odometry;
   KeyframeConfig keyframes;
   LoopCloserConfig loop_closure;
-  PoseGraphOptimizerConfig solver;
+  SolverConfig solver;
 
   /// The one list of sections: `section(name, config)`.
   template <typename Self, typename Section>
