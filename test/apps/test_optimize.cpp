@@ -65,8 +65,8 @@ TEST_F(OptimizeTest, AnswersInTheFormatOfTheFile) {
   EXPECT_SAYS(folder_.read("out"), "PLANE 6 ");
   const Json json = report(folder_.write("a.json", kSmallJson), {"--out", folder_.file("b.json")});
   EXPECT_EQ(json.at("converged"), true);
-  EXPECT_NEAR(readGraphFile(folder_.file("b.json")).keyframes[1].T_map_base.translation().x(), 1.05,
-              1e-7);
+  const Json written = Json::parse(folder_.read("b.json"));
+  EXPECT_NEAR(written.at("keyframes").at(1).at("pose").at(0).get<double>(), 1.05, 1e-7);
 }
 
 TEST_F(OptimizeTest, NamesWhatTheFactorsLeaveFree) {

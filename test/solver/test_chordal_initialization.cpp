@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mrpt_sgraphs/solver/chordal_initialization.h"
-
 #include <gtest/gtest.h>
 
 #include <memory>
 
 #include "mrpt_sgraphs/factors/plane_observation.h"
 #include "mrpt_sgraphs/factors/relative_pose.h"
+#include "mrpt_sgraphs/solver/chordal_initialization.h"
 #include "support/random_geometry.h"
 
 namespace mrpt_sgraphs::test {
@@ -55,9 +54,8 @@ class ChordalInitializationTest : public ::testing::Test {
 TEST_F(ChordalInitializationTest, FindsWhatWasMeasuredWithoutError) {
   const Plane wall_map{random_.vector(1.0).normalized(), 2.0};
   const int wall = problem_.addVariable(WallId{0}, Plane{});
-  add(std::make_shared<PlaneObservationFactor>(keyframe(9), WallId{0},
-                                               inverseTimes(truth_[9], wall_map),
-                                               Eigen::Matrix3d::Identity()),
+  add(std::make_shared<PlaneObservationFactor>(
+          keyframe(9), WallId{0}, inverseTimes(truth_[9], wall_map), Eigen::Matrix3d::Identity()),
       9, wall);
   const Pose held = problem_.pose(kHeld);
   EXPECT_EQ(initializeChordal(&problem_), kPoses - 1);
