@@ -7,8 +7,8 @@
 
 namespace mrpt_sgraphs {
 
-/// The most memory that this program has had [MiB]. getrusage will not do: what it says includes the
-/// program that started this one. 0 where the system does not tell.
+/// The most memory that this program has had [MiB]. getrusage will not do: what it says includes
+/// the program that started this one. 0 where the system does not tell.
 inline double peakMemory_MiB() {
   constexpr double kKiBInMiB = 1024.0;
   std::ifstream status("/proc/self/status");

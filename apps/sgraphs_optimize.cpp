@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <boost/program_options.hpp>
 #include <chrono>
 #include <ctime>
 #include <exception>
 #include <iostream>
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "graph_problem.h"
-#include "mrpt_sgraphs/io/graph_formats.h"
 #include "mrpt_sgraphs/io/statistics.h"
-#include "mrpt_sgraphs/solver/chordal_initialization.h"
-#include "mrpt_sgraphs/solver/optimizer.h"
+#include "optimizable_graph.h"
 #include "peak_memory.h"
 
 namespace mrpt_sgraphs {
@@ -48,20 +48,23 @@ void requireRange(const char* name, Number value, Number least, Number most) {
 
 void check(const Options& options) {
   requireRange("repeat", options.repeat, 1, kMostRepeats);
-  OptimizerConfig::fields(options.optimizer, [](const std::string& field, auto value, auto least,
-                                                auto most) {
-    if (field == "threads") requireRange("threads", value, least, most);
-    if (field == "max_iterations") requireRange("max-iterations", value, least, most);
-  });
+  OptimizerConfig::fields(options.optimizer,
+                          [](const std::string& field, auto value, auto least, auto most) {
+                            if (field == "threads") requireRange("threads", value, least, most);
+                            if (field == "max_iterations")
+                              requireRange("max-iterations", value, least, most);
+                          });
   if (options.init != "file" && options.init != "chordal") {
     throw po::error("--init must be 'file' or 'chordal', not '" + options.init + "'");
   }
   if (options.mode == "paper" || options.mode == "condensed") {
-    throw std::runtime_error("--mode " + options.mode +
-                             " comes with a later version; this one has 'baseline', the whole graph");
+    throw std::runtime_error(
+        "--mode " + options.mode +
+        " comes with a later version; this one has 'baseline', the whole graph");
   }
   if (options.mode != "baseline") {
-    throw po::error("--mode must be 'baseline', 'paper' or 'condensed', not '" + options.mode + "'");
+    throw po::error("--mode must be 'baseline', 'paper' or 'condensed', not '" + options.mode +
+                    "'");
   }
 }
 
@@ -98,8 +101,7 @@ std::optional<Options> parse(int argc, char** argv) {
   po::store(po::command_line_parser(argc, argv)
                 .options(all)
                 .positional(positions)
-                .style(po::command_line_style::unix_style &
-                       ~po::command_line_style::allow_guessing)
+                .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)
                 .run(),
             values);
   if (values.count("help") > 0) {
@@ -124,19 +126,16 @@ struct Measured {
   double wall_s = 0.0;
 };
 
-/// Optimizes from the problem's values as often as asked for, each time with an optimizer that knows
-/// nothing yet; the values of the last are left.
-Measured optimize(const Options& options, Problem* problem) {
-  const Problem::Values begin = problem->values();
+/// Optimizes from the same values as often as asked for; the result of the last is left.
+Measured optimize(const Options& options, OptimizableGraph* graph) {
   Measured measured;
   std::vector<double> cpu_s;
   std::vector<double> wall_s;
   for (int round = 0; round < options.repeat; ++round) {
-    problem->setValues(begin);
+    graph->reset();
     const auto start = std::chrono::steady_clock::now();
     const double cpu_start_s = processCpu_s();
-    Optimizer optimizer;
-    measured.report = optimizer.optimize(options.optimizer, problem);
+    measured.report = graph->optimize(options.optimizer);
     cpu_s.push_back(processCpu_s() - cpu_start_s);
     wall_s.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -158,7 +157,8 @@ Json toJson(const GaugeFreedom& gauge) {
           {"first_nodes", names}};
 }
 
-Json toJson(const Options& options, const GraphFile& graph, const Measured& measured) {
+Json toJson(const Options& options, const OptimizableGraph::Counts& counts,
+            const Measured& measured) {
   const OptimizerReport& report = measured.report;
   Json gauge = Json::array();
   for (const GaugeFreedom& part : report.gauge) gauge.push_back(toJson(part));
@@ -167,10 +167,10 @@ Json toJson(const Options& options, const GraphFile& graph, const Measured& meas
           {"init", options.init},
           {"threads", options.optimizer.threads},
           {"repeat", options.repeat},
-          {"keyframes", graph.keyframes.size()},
-          {"walls", graph.walls.size()},
-          {"factors", graph.factors.size()},
-          {"ignored_records", graph.ignored},
+          {"keyframes", counts.keyframes},
+          {"walls", counts.walls},
+          {"factors", counts.factors},
+          {"ignored_records", counts.ignored},
           {"iterations", report.iterations},
           {"factorizations", report.factorizations},
           {"converged", report.converged},
@@ -184,10 +184,10 @@ Json toJson(const Options& options, const GraphFile& graph, const Measured& meas
           {"factorize_ms", report.factorize_ms}};
 }
 
-void warnOfIgnored(const GraphFile& graph) {
+void warnOfIgnored(const std::map<std::string, int>& ignored) {
   constexpr int kMostKinds = 10;
   int kinds = 0;
-  for (const auto& [name, count] : graph.ignored) {
+  for (const auto& [name, count] : ignored) {
     if (++kinds > kMostKinds) break;
     std::cerr << "sgraphs_optimize: passed over " << count << " records of type '" << name << "'\n";
   }
@@ -195,21 +195,19 @@ void warnOfIgnored(const GraphFile& graph) {
 }
 
 void run(const Options& options) {
-  GraphFile graph = readGraphFile(options.file);
-  warnOfIgnored(graph);
-  Problem problem = problemOf(graph);
+  const std::unique_ptr<OptimizableGraph> graph = readOptimizableGraph(options.file);
+  const OptimizableGraph::Counts counts = graph->counts();
+  warnOfIgnored(counts.ignored);
   Json init;
   if (options.init == "chordal") {
     const double start_s = processCpu_s();
-    const double before = problem.cost();
-    const int placed = initializeChordal(&problem);
+    const auto [before, placed] = graph->initializeChordal();
     init = {{"placed", placed}, {"cpu_s", processCpu_s() - start_s}, {"chi2_of_file", before}};
   }
-  const Measured measured = optimize(options, &problem);
-  takeValues(problem, &graph);
-  if (!options.out.empty()) writeEstimate(options.out, options.file, graph);
+  const Measured measured = optimize(options, graph.get());
+  if (!options.out.empty()) graph->write(options.out);
 
-  Json json = toJson(options, graph, measured);
+  Json json = toJson(options, counts, measured);
   if (!init.is_null()) json["chordal"] = init;
   json["peak_mib"] = peakMemory_MiB();
   std::cout << json.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
@@ -222,8 +220,8 @@ void run(const Options& options) {
 }  // namespace
 }  // namespace mrpt_sgraphs
 
-/// Exit code 0: the report is printed, whether it converged or not; 1: it is not; 2: the command line
-/// is wrong.
+/// Exit code 0: the report is printed, whether it converged or not; 1: it is not; 2: the command
+/// line is wrong.
 int main(int argc, char** argv) {
   using namespace mrpt_sgraphs;
   try {

@@ -64,8 +64,8 @@ struct AutodiffPlane {
 
 inline ceres::CostFunction* autodiff(const ResidualFactor<6, Pose, Pose>& factor,
                                      const Pose& T_from_to, bool rotation_vector) {
-  return new ceres::AutoDiffCostFunction<AutodiffRelativePose, 6, 7, 7>(new AutodiffRelativePose{
-      T_from_to, factor.information().llt().matrixU(), rotation_vector});
+  return new ceres::AutoDiffCostFunction<AutodiffRelativePose, 6, 7, 7>(
+      new AutodiffRelativePose{T_from_to, factor.information().llt().matrixU(), rotation_vector});
 }
 
 inline ceres::CostFunction* autodiff(const PlaneObservationFactor& factor) {

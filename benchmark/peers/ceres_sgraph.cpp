@@ -6,10 +6,10 @@
 #include <array>
 #include <memory>
 
+#include "ceres_autodiff.h"
 #include "mrpt_sgraphs/factors/plane_observation.h"
 #include "mrpt_sgraphs/factors/relative_pose.h"
 #include "mrpt_sgraphs/factors/relative_pose_quaternion.h"
-#include "ceres_autodiff.h"
 #include "peer.h"
 
 /// Ceres on a graph's file: Levenberg-Marquardt with a sparse Cholesky factorization, one thread.
@@ -17,9 +17,11 @@
 ///     ceres_sgraph FILE.g2o|FILE.sg [--repeat N] [--out FILE]
 ///                  [--jacobians autodiff|analytic] [--radius R] [--library suite|eigen]
 ///
-/// By default as its users have it: automatic differentiation, Ceres' own manifolds and damping. With
-/// `--jacobians analytic --radius 1e8` as fast as we know to make it: the very residuals and Jacobians
-/// that our solver uses, with respect to the tangents, and hardly any damping to begin with.
+/// By default as its users have it: automatic differentiation, Ceres' own manifolds and damping.
+/// With
+/// `--jacobians analytic --radius 1e8` as fast as we know to make it: the very residuals and
+/// Jacobians that our solver uses, with respect to the tangents, and hardly any damping to begin
+/// with.
 namespace mrpt_sgraphs::peers {
 namespace {
 
@@ -50,8 +52,8 @@ std::array<double, 4> toAmbient(const Plane& plane) {
   return {plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.distance};
 }
 
-/// The Jacobians of Cost are those of the tangents already: PlusJacobian is an identity with empty rows
-/// below, so that no column is computed for nothing.
+/// The Jacobians of Cost are those of the tangents already: PlusJacobian is an identity with empty
+/// rows below, so that no column is computed for nothing.
 template <typename Variable>
 class TangentManifold final : public ceres::Manifold {
  public:
@@ -88,8 +90,8 @@ class Cost final : public ceres::SizedCostFunction<Rows, kAmbient<First>, kAmbie
     Eigen::Matrix<double, Rows, kTangentSize<Second>> J_second;
     const bool wanted = jacobians != nullptr;
     Eigen::Map<Eigen::Matrix<double, Rows, 1>>(residual).noalias() =
-        root_ * factor_.evaluate(first, second, wanted ? &J_first : nullptr,
-                                 wanted ? &J_second : nullptr);
+        root_ *
+        factor_.evaluate(first, second, wanted ? &J_first : nullptr, wanted ? &J_second : nullptr);
     if (wanted) {
       store<First>(J_first, jacobians[0]);
       store<Second>(J_second, jacobians[1]);
@@ -163,18 +165,18 @@ Solve build(const Options& options, IndexedGraph* indexed) {
   for (const auto& wall : indexed->graph.walls) state->planes.push_back(toAmbient(wall.plane_map));
   const bool analytic = further(options, "--jacobians", "autodiff") == "analytic";
   for (auto& x : state->poses) {
-    state->problem->AddParameterBlock(
-        x.data(), 7, analytic ? new TangentManifold<Pose> : poseManifold());
+    state->problem->AddParameterBlock(x.data(), 7,
+                                      analytic ? new TangentManifold<Pose> : poseManifold());
   }
   for (auto& x : state->planes) {
-    state->problem->AddParameterBlock(
-        x.data(), 4, analytic ? new TangentManifold<Plane> : planeManifold());
+    state->problem->AddParameterBlock(x.data(), 4,
+                                      analytic ? new TangentManifold<Plane> : planeManifold());
   }
   for (std::size_t k = 0; k < indexed->ends.size(); ++k) {
     const Factor& factor = *indexed->graph.factors[k];
     const auto [first, second] = indexed->ends[k];
-    double* const second_x = isPlane(factor.node(1).layer) ? state->planes[second].data()
-                                                           : state->poses[second].data();
+    double* const second_x =
+        isPlane(factor.node(1).layer) ? state->planes[second].data() : state->poses[second].data();
     state->problem->AddResidualBlock(costFunction(factor, analytic), nullptr,
                                      state->poses[first].data(), second_x);
   }

@@ -10,9 +10,9 @@
 ///
 ///     mrpt_pose_graph FILE.g2o [--repeat N] [--out FILE]
 ///
-/// Its residual is the rotation vector where g2o's is the vector part of the quaternion, half as long:
-/// the information of the rotation is scaled so that the two costs agree for small residuals. It is
-/// put down in the order in which the optimizer multiplies it, x y z and about x y z.
+/// Its residual is the rotation vector where g2o's is the vector part of the quaternion, half as
+/// long: the information of the rotation is scaled so that the two costs agree for small residuals.
+/// It is put down in the order in which the optimizer multiplies it, x y z and about x y z.
 namespace mrpt_sgraphs::peers {
 namespace {
 

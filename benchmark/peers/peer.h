@@ -79,10 +79,9 @@ struct IndexedGraph {
     double sum = 0.0;
     for (std::size_t k = 0; k < ends.size(); ++k) {
       const VariableView first(graph.keyframes[ends[k].first].T_map_base);
-      const VariableView second =
-          isPlane(graph.factors[k]->node(1).layer)
-              ? VariableView(graph.walls[ends[k].second].plane_map)
-              : VariableView(graph.keyframes[ends[k].second].T_map_base);
+      const VariableView second = isPlane(graph.factors[k]->node(1).layer)
+                                      ? VariableView(graph.walls[ends[k].second].plane_map)
+                                      : VariableView(graph.keyframes[ends[k].second].T_map_base);
       const VariableView values[] = {first, second};
       sum += graph.factors[k]->cost(values);
     }
@@ -102,7 +101,8 @@ inline double median(std::vector<double> values) {
 }
 
 /// Runs a peer on a file as often as asked for and prints the line that sgraphs_optimize prints.
-/// @param build  Makes its problem, untimed, from the graph as read; it returns what is timed, which
+/// @param build  Makes its problem, untimed, from the graph as read; it returns what is timed,
+/// which
 ///               writes the estimate into the graph that it is given.
 using Solve = std::function<Solved()>;
 inline int run(const Options& options,

@@ -32,8 +32,8 @@ std::string shown(std::string_view word) {
   return "'" + text + (word.size() > kMost ? "...'" : "'");
 }
 
-/// Decimals of so few digits that they and their power of ten are exact doubles, so that one division
-/// rounds them correctly: nearly all there are, at a tenth of strtod's time.
+/// Decimals of so few digits that they and their power of ten are exact doubles, so that one
+/// division rounds them correctly: nearly all there are, at a tenth of strtod's time.
 bool parsePlainDecimal(std::string_view word, double* value) {
   constexpr double kPowers[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};

@@ -127,8 +127,8 @@ class PoseNetwork {
         for (int k = 0; end >= 0 && k < 3; ++k) entries.emplace_back(3 * end + k, 3 * end + k, w);
       }
       if (from >= 0 && to >= 0) {
-        addBlock(-w * (from > to ? Z : Eigen::Matrix3d(Z.transpose())), std::max(from, to), std::min(from, to),
-                 &entries);
+        addBlock(-w * (from > to ? Z : Eigen::Matrix3d(Z.transpose())), std::max(from, to),
+                 std::min(from, to), &entries);
       } else if (from >= 0) {
         right.middleRows<3>(3 * from) += w * Z * pose(m.to).linear().transpose();
       } else if (to >= 0) {

@@ -48,8 +48,8 @@ TEST_F(OptimizeTest, PrintsOneLineOfJson) {
 }
 
 TEST_F(OptimizeTest, FindsTheOptimumOfALoop) {
-  const Json json =
-      report(folder_.write("a.g2o", with(kSmallG2o, "100 1 0", "100 0 0")), {"--out", folder_.file("b.g2o")});
+  const Json json = report(folder_.write("a.g2o", with(kSmallG2o, "100 1 0", "100 0 0")),
+                           {"--out", folder_.file("b.g2o")});
   // three equal weights share the 3 cm that the loop is longer
   EXPECT_NEAR(json.at("chi2").at("after").get<double>(), 3 * 100.0 * 0.01 * 0.01, 1e-9);
   const GraphFile estimate = readGraphFile(folder_.file("b.g2o"));
@@ -65,8 +65,8 @@ TEST_F(OptimizeTest, AnswersInTheFormatOfTheFile) {
   EXPECT_SAYS(folder_.read("out"), "PLANE 6 ");
   const Json json = report(folder_.write("a.json", kSmallJson), {"--out", folder_.file("b.json")});
   EXPECT_EQ(json.at("converged"), true);
-  EXPECT_NEAR(readGraphFile(folder_.file("b.json")).keyframes[1].T_map_base.translation().x(), 1.05,
-              1e-7);
+  const Json written = Json::parse(folder_.read("b.json"));
+  EXPECT_NEAR(written.at("keyframes").at(1).at("pose").at(0).get<double>(), 1.05, 1e-7);
 }
 
 TEST_F(OptimizeTest, NamesWhatTheFactorsLeaveFree) {
@@ -115,9 +115,14 @@ TEST_F(OptimizeTest, ErrorsHaveNamesAndExitCodes) {
   EXPECT_TRUE(run({folder_.file("none.g2o")}).says("none.g2o': cannot be read"));
   EXPECT_TRUE(run({path, "--out", folder_.file("no/such/b.g2o")}).says("no/such/b.g2o"));
   EXPECT_EQ(run({folder_.write("bad.g2o", "EDGE_SE3:QUAT 1")}).exit_code, kFailed);
-  for (const Arguments& wrong :
-       {Arguments{}, {path, "--threads", "0"}, {path, "--repeat", "0"}, {path, "--mode", "fast"},
-        {path, "--init", "magic"}, {path, path}, {path, "--max-iterations", "x"}, {path, "--fast"}}) {
+  for (const Arguments& wrong : {Arguments{},
+                                 {path, "--threads", "0"},
+                                 {path, "--repeat", "0"},
+                                 {path, "--mode", "fast"},
+                                 {path, "--init", "magic"},
+                                 {path, path},
+                                 {path, "--max-iterations", "x"},
+                                 {path, "--fast"}}) {
     EXPECT_EQ(run(wrong).exit_code, kWrongUsage) << (wrong.empty() ? "" : wrong.back());
   }
   EXPECT_EQ(run({"--help"}).exit_code, 0);

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mrpt_sgraphs/io/g2o_file.h"
-
 #include <gtest/gtest.h>
 
 #include "graph_files.h"
 #include "mrpt_sgraphs/factors/relative_pose_quaternion.h"
+#include "mrpt_sgraphs/io/g2o_file.h"
 
 namespace mrpt_sgraphs::test {
 namespace {
@@ -70,7 +69,8 @@ TEST_F(G2oFileTest, PassesOverVerticesAndParametersButNoEdges) {
   EXPECT_EQ(graph.ignored.at("VERTEX_TRACKXYZ"), 1);
   EXPECT_SAYS(error("EDGE_SE3:QUAT 5 7", "EDGE_SE3_TRACKXYZ 5 7"),
               "line 6: 'EDGE_SE3_TRACKXYZ': edges of this type are not known");
-  EXPECT_SAYS(error("VERTEX_SE3:QUAT 3", "VERTEX_SE2 3"), "line 1: 'VERTEX_SE2': a pose graph in 2D");
+  EXPECT_SAYS(error("VERTEX_SE3:QUAT 3", "VERTEX_SE2 3"),
+              "line 1: 'VERTEX_SE2': a pose graph in 2D");
 }
 
 TEST_F(G2oFileTest, InformationThatIsNoneIsRefused) {
@@ -88,7 +88,8 @@ TEST_F(G2oFileTest, InformationMayHaveDirectionsThatItSaysNothingAbout) {
 }
 
 TEST_F(G2oFileTest, ErrorsNameTheLineAndTheReason) {
-  EXPECT_SAYS(error("VERTEX_SE3:QUAT 5", "VERTEX_SE3:QUAT 3"), "line 2: 'VERTEX_SE3:QUAT': vertex 3");
+  EXPECT_SAYS(error("VERTEX_SE3:QUAT 5", "VERTEX_SE3:QUAT 3"),
+              "line 2: 'VERTEX_SE3:QUAT': vertex 3");
   EXPECT_SAYS(error("EDGE_SE3:QUAT 5 7", "EDGE_SE3:QUAT 5 8"), "line 6: there is no vertex 8");
   EXPECT_SAYS(error("EDGE_SE3:QUAT 5 7", "EDGE_SE3:QUAT 5 5"), "from vertex 5 to itself");
   EXPECT_SAYS(error("FIX 3", "FIX 4"), "line 4: there is no vertex 4");

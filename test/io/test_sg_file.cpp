@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mrpt_sgraphs/io/sg_file.h"
-
 #include <gtest/gtest.h>
 
 #include <clocale>
@@ -9,6 +7,7 @@
 #include "graph_files.h"
 #include "mrpt_sgraphs/factors/plane_observation.h"
 #include "mrpt_sgraphs/factors/relative_pose.h"
+#include "mrpt_sgraphs/io/sg_file.h"
 
 namespace mrpt_sgraphs::test {
 namespace {

@@ -11,7 +11,8 @@ namespace mrpt_sgraphs {
 
 /// Reads the 3D pose graph of a .g2o file: `VERTEX_SE3:QUAT id x y z qx qy qz qw`,
 /// `EDGE_SE3:QUAT from to x y z qx qy qz qw` with the upper triangle of the information row by row,
-/// and `FIX id ...`. The cost is g2o's: the rotation's residual is the vector part of the quaternion.
+/// and `FIX id ...`. The cost is g2o's: the rotation's residual is the vector part of the
+/// quaternion.
 ///
 /// Vertices and parameters of other types are counted and passed over. An edge of another type is
 /// refused: without it the cost would be another one than the file's.

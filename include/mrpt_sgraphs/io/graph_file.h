@@ -17,8 +17,8 @@ struct GraphFile {
   struct Keyframe {
     KeyframeId id;
     Pose T_map_base = Pose::Identity();
-    bool fixed = false;           ///< The file says so.
-    std::optional<RoomId> room;   ///< That it stands in.
+    bool fixed = false;          ///< The file says so.
+    std::optional<RoomId> room;  ///< That it stands in.
     std::optional<FloorId> floor;
   };
   struct Wall {

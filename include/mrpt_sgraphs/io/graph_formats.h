@@ -9,13 +9,8 @@
 
 namespace mrpt_sgraphs {
 
-/// The formats of graphs, by the end of the file's name.
-enum class GraphFormat { kG2o, kSg, kJson };
-
-/// @throws FileError if the name ends in none of .g2o, .sg and .json.
-GraphFormat graphFormatOf(const std::string& path);
-
-/// @throws FileError, see the readers.
+/// Reads a .g2o or a .sg file, by the end of its name.
+/// @throws FileError if it ends in neither, and see the readers.
 GraphFile readGraphFile(const std::string& path);
 
 /// Writes the estimate in the format of the file that the graph was read from, `source`.

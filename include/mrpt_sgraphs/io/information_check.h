@@ -9,8 +9,8 @@
 
 namespace mrpt_sgraphs {
 
-/// Whether a finite symmetric matrix can be an information. A file of few digits may have moved eigenvalues
-/// that were zero: so much below zero is still semidefinite.
+/// Whether a finite symmetric matrix can be an information. A file of few digits may have moved
+/// eigenvalues that were zero: so much below zero is still semidefinite.
 inline bool isPositiveSemidefinite(const Matrix6& information) {
   const double largest = information.cwiseAbs().maxCoeff();
   if (largest == 0.0) return true;

@@ -28,12 +28,12 @@ class RecordReader {
   int line() const { return line_; }
 
   /// @param what  What the word means, for the error.
-  double number(const char* what);          ///< Finite.
-  double positive(const char* what);        ///< Finite and above zero.
-  uint64_t id(const char* what);            ///< A whole number below 2^64.
+  double number(const char* what);    ///< Finite.
+  double positive(const char* what);  ///< Finite and above zero.
+  uint64_t id(const char* what);      ///< A whole number below 2^64.
   int64_t integer(const char* what);
   Eigen::Vector3d vector(const char* what);
-  Pose pose(const char* what);              ///< `x y z qx qy qz qw`, the quaternion of any length.
+  Pose pose(const char* what);  ///< `x y z qx qy qz qw`, the quaternion of any length.
 
   bool hasMore();  ///< Whether a word is left in the record.
   void end();      ///< Nothing may be left.

@@ -17,10 +17,12 @@ namespace mrpt_sgraphs {
 ///
 ///     min sum w_t | t_i + R_i z - t_j |^2
 ///
-/// Fixed poses stay as they are; of each connected part that has none, the pose that was added first.
-/// Planes follow the pose that is the first to have seen them. What no relative pose reaches stays.
+/// Fixed poses stay as they are; of each connected part that has none, the pose that was added
+/// first. Planes follow the pose that is the first to have seen them. What no relative pose reaches
+/// stays.
 ///
-/// @return How many poses were placed: 0, and nothing has changed, if the equations have no solution
+/// @return How many poses were placed: 0, and nothing has changed, if the equations have no
+/// solution
 ///         in numbers.
 int initializeChordal(Problem* problem);
 
