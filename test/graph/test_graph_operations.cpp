@@ -7,6 +7,7 @@
 #include <set>
 
 #include "graph_support.h"
+#include "mrpt_sgraphs/graph/mrpt_information.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -157,7 +158,7 @@ class GraphOperations : public ::testing::TestWithParam<unsigned> {
       ASSERT_EQ(Eigen::Matrix3d(edge.mean.getRotationMatrix().asEigen()),
                 factor.T_from_to.linear());
       ASSERT_EQ(Matrix6(edge.cov_inv.asEigen()),
-                toMrptInformation(factor.T_from_to, factor.information()));
+                toYawPitchRollInformation(factor.T_from_to, factor.information()));
       ++expected;
     }
   }
@@ -184,7 +185,7 @@ TEST(KeyframeNetwork, HoldsInformationInTheOrderOfMrpt) {
   information.diagonal() << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0;  // about x, y, z: roll, pitch, yaw
   Tangent expected;
   expected << 1.0, 2.0, 3.0, 6.0, 5.0, 4.0;
-  EXPECT_EQ(Tangent(toMrptInformation(Pose::Identity(), information).diagonal()), expected);
+  EXPECT_EQ(Tangent(toYawPitchRollInformation(Pose::Identity(), information).diagonal()), expected);
 }
 
 }  // namespace

@@ -3,23 +3,18 @@
 
 #pragma once
 
-#include <mrpt/graphs/CNetworkOfPoses.h>
-
 #include <memory>
 #include <vector>
 
 #include "mrpt_sgraphs/factors/relative_pose.h"
+#include "mrpt_sgraphs/graph/mrpt_network.h"
 
 namespace mrpt_sgraphs {
-
-/// What an edge of an MRPT network has to hold for an information of the right perturbation of
-/// T_from_to, `[t; theta]`.
-Matrix6 toMrptInformation(const Pose& T_from_to, const Matrix6& information);
 
 /// The keyframes layer as MRPT sees it, and the one place where the keyframes' poses are kept.
 class KeyframeNetwork {
  public:
-  using Network = mrpt::graphs::CNetworkOfPoses3DInf;
+  using Network = MrptNetwork;
   using Edge = Network::iterator;  ///< Stable: MRPT's edges are a multimap.
 
   const Network& network() const { return *network_; }
