@@ -101,7 +101,7 @@ TEST_F(PipelineInABuilding, SameInputSameOutput) {
               record_->trajectory[k].T_world_body.matrix());
   }
   ASSERT_EQ(again.graph->keyframes.size(), record_->graph->keyframes.size());
-  ASSERT_EQ(again.graph->edges.size(), record_->graph->edges.size());
+  ASSERT_EQ(again.graph->factors.size(), record_->graph->factors.size());
   ASSERT_EQ(again.optimizations.size(), record_->optimizations.size());
   for (std::size_t k = 0; k < again.graph->keyframes.size(); ++k) {
     const Cloud& a = *again.graph->keyframes[k].cloud;
