@@ -13,8 +13,8 @@
 namespace mrpt_sgraphs {
 namespace {
 
-/// Of the largest pivot: what rounding makes of a zero is smaller.
-constexpr double kMaxNegativePivot = 1e-8;
+/// Of the largest entry: what rounding makes of an eigenvalue of zero is smaller.
+constexpr double kMaxNegativeEigenvalue = 1e-8;
 
 void require(bool holds, const Factor& factor, const char* problem) {
   if (!holds) throw std::invalid_argument(describe(factor) + ": " + problem);
@@ -53,9 +53,15 @@ void requireSound(const Factor& factor, const VariableView* values) {
   H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
   require(std::isfinite(cost) && g.allFinite() && H.allFinite(), factor,
           "measurement or information are not finite");
-  const Eigen::VectorXd pivots = H.ldlt().vectorD();
-  require(pivots.minCoeff() >= -kMaxNegativePivot * pivots.cwiseAbs().maxCoeff(), factor,
-          "the information is not positive semidefinite");
+  // not by the pivots of H itself: behind the first that is zero they are made of rounding alone
+  const double shift = kMaxNegativeEigenvalue * H.diagonal().cwiseAbs().maxCoeff();
+  if (shift > 0.0) {
+    H.diagonal().array() += shift;
+    require(H.llt().info() == Eigen::Success, factor,
+            "the information is not positive semidefinite");
+  } else {
+    require(H.isZero(0.0), factor, "the information is not positive semidefinite");
+  }
 }
 
 }  // namespace mrpt_sgraphs
