@@ -136,7 +136,7 @@ class JsonGraph final : public OptimizableGraph {
   }
 
  private:
-  static SituationalGraph read(const std::string& path) {
+  static LayeredGraph read(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) throw FileError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
     return readGraphJson(file, path);
@@ -150,7 +150,7 @@ class JsonGraph final : public OptimizableGraph {
     return result;
   }
 
-  SituationalGraph graph_;
+  LayeredGraph graph_;
   std::vector<Pose> poses_;  ///< To begin with.
   std::vector<Plane> planes_;
 };

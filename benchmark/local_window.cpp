@@ -102,7 +102,7 @@ class GrowingGraph {
 
   std::string path_;
   GraphFile file_;
-  SituationalGraph graph_;
+  LayeredGraph graph_;
   LocalWindow window_;
   Optimizer optimizer_;
   std::vector<std::vector<FactorConstPtr>> factors_of_;  ///< By the last keyframe that they need.

@@ -38,8 +38,6 @@ void requireSound(const Factor& factor, const VariableView* values) {
     }
   }
   if (const auto* relative = dynamic_cast<const RelativePoseFactor*>(&factor)) {
-    const bool joins_poses = !isPlane(relative->node(0).layer) && !isPlane(relative->node(1).layer);
-    require(joins_poses, factor, "a relative pose needs two poses");
     const Matrix6& information = relative->information();
     constexpr double kMaxAsymmetry = 1e-6;
     require((information - information.transpose()).norm() <= kMaxAsymmetry * information.norm(),

@@ -46,7 +46,7 @@ void LocalWindow::forget() {
   known_factors_ = 0;
 }
 
-void LocalWindow::add(const SituationalGraph& graph, uint32_t factor) {
+void LocalWindow::add(const LayeredGraph& graph, uint32_t factor) {
   const auto* sighting =
       dynamic_cast<const PlaneObservationFactor*>(graph.factorAt(factor).factor.get());
   if (sighting == nullptr) return;
@@ -58,7 +58,7 @@ void LocalWindow::add(const SituationalGraph& graph, uint32_t factor) {
   found->second.add(withoutKernel(*sighting, T_map_base, surface_map), T_map_base);
 }
 
-void LocalWindow::catchUp(const SituationalGraph& graph, uint32_t first_in_window) {
+void LocalWindow::catchUp(const LayeredGraph& graph, uint32_t first_in_window) {
   if (graph.erasures() != erasures_ || first_in_window < summed_keyframes_) forget();
   erasures_ = graph.erasures();
   // new factors of keyframes that have left already
@@ -78,7 +78,7 @@ void LocalWindow::catchUp(const SituationalGraph& graph, uint32_t first_in_windo
   }
 }
 
-Selection LocalWindow::select(const SituationalGraph& graph) {
+Selection LocalWindow::select(const LayeredGraph& graph) {
   const std::size_t count = graph.size(Layer::kKeyframe);
   const auto first = static_cast<uint32_t>(count > keyframes_ ? count - keyframes_ : 0);
   const auto first_free = static_cast<uint32_t>(

@@ -16,7 +16,7 @@ constexpr int kOutside = -1;
 /// Which variable a node is. A small selection of a large graph does not pay for all its nodes.
 class VariableNumbers {
  public:
-  VariableNumbers(std::size_t selected, const SituationalGraph& graph) {
+  VariableNumbers(std::size_t selected, const LayeredGraph& graph) {
     std::size_t nodes = 0;
     for (const Layer layer : kLayers) nodes += graph.size(layer);
     dense_ = nodes < kSparse * selected;
@@ -59,7 +59,7 @@ class VariableNumbers {
 /// The selected part of a graph as a problem for the solver.
 class SelectedProblem {
  public:
-  SelectedProblem(const Selection& selection, const SituationalGraph& graph)
+  SelectedProblem(const Selection& selection, const LayeredGraph& graph)
       : graph_(graph), variables_(selection.free.size() + selection.fixed.size(), graph) {
     problem_.reserve(selection.free.size() + selection.fixed.size(), countLinks(selection));
     for (const NodeId node : selection.free) addVariable(node, false);
@@ -74,7 +74,7 @@ class SelectedProblem {
 
   Problem* problem() { return &problem_; }
 
-  void writeBack(SituationalGraph* graph) const {
+  void writeBack(LayeredGraph* graph) const {
     for (const NodeHandle node : nodes_) {
       const int variable = variableOf(node);
       if (problem_.isFixed(variable)) break;
@@ -157,7 +157,7 @@ class SelectedProblem {
     return names;
   }
 
-  const SituationalGraph& graph_;
+  const LayeredGraph& graph_;
   Problem problem_;
   std::vector<NodeHandle> nodes_;              ///< By variable: first the free, then the fixed.
   VariableNumbers variables_;
@@ -167,7 +167,7 @@ class SelectedProblem {
 }  // namespace
 
 OptimizerReport optimizeSelection(const Selection& selection, const OptimizerConfig& config,
-                                  Optimizer* optimizer, SituationalGraph* graph) {
+                                  Optimizer* optimizer, LayeredGraph* graph) {
   SelectedProblem selected(selection, *graph);
   OptimizerReport report = optimizer->optimize(config, selected.problem());
   selected.writeBack(graph);

@@ -5,7 +5,7 @@
 
 namespace mrpt_sgraphs {
 
-Selection selectAll(const SituationalGraph& graph) {
+Selection selectAll(const LayeredGraph& graph) {
   Selection all;
   for (const Layer layer : {Layer::kKeyframe, Layer::kWall, Layer::kRoom, Layer::kFloor}) {
     for (uint32_t slot = 0; slot < graph.size(layer); ++slot) {

@@ -40,7 +40,7 @@ RoomAttributes::Kind kindOf(const JsonPlace& place) {
   place.fail("is none of four_walls, corridor, polygon");
 }
 
-void addKeyframe(const JsonPlace& place, SituationalGraph* graph) {
+void addKeyframe(const JsonPlace& place, LayeredGraph* graph) {
   const KeyframeId id{place["id"].id()};
   KeyframeAttributes attributes;
   attributes.stamp_s = place["stamp"].number();
@@ -53,13 +53,13 @@ void addKeyframe(const JsonPlace& place, SituationalGraph* graph) {
   graph->restoreKeyframe(id, place["pose"].pose(), attributes);
 }
 
-void addWall(const JsonPlace& place, SituationalGraph* graph) {
+void addWall(const JsonPlace& place, LayeredGraph* graph) {
   WallAttributes attributes;
   attributes.polygon_map = polygon(place["polygon"]);
   graph->restoreWall(WallId{place["id"].id()}, place["plane"].plane(), attributes);
 }
 
-void addRoom(const JsonPlace& place, SituationalGraph* graph) {
+void addRoom(const JsonPlace& place, LayeredGraph* graph) {
   RoomAttributes attributes;
   attributes.kind = kindOf(place["kind"]);
   const JsonPlace walls = place["walls"];
@@ -71,19 +71,19 @@ void addRoom(const JsonPlace& place, SituationalGraph* graph) {
   graph->restoreRoom(RoomId{place["id"].id()}, place["pose"].pose(), attributes);
 }
 
-void addFloor(const JsonPlace& place, SituationalGraph* graph) {
+void addFloor(const JsonPlace& place, LayeredGraph* graph) {
   FloorAttributes attributes;
   attributes.centre_map = place["centre"].vector(3);
   attributes.name = place["name"].string();
   graph->restoreFloor(FloorId{place["id"].id()}, place["plane"].plane(), attributes);
 }
 
-void requireNode(const SituationalGraph& graph, NodeId node, const JsonPlace& place) {
+void requireNode(const LayeredGraph& graph, NodeId node, const JsonPlace& place) {
   if (!graph.contains(node)) place.fail("refers to " + nameOf(node) + ", which is not in the file");
 }
 
 /// What nodes say of each other, when all are there.
-void requireReferences(const SituationalGraph& graph, const JsonPlace& document) {
+void requireReferences(const LayeredGraph& graph, const JsonPlace& document) {
   const JsonPlace keyframes = document["keyframes"];
   for (std::size_t k = 0; k < keyframes.size(); ++k) {
     const KeyframeAttributes& keyframe = graph.attributes(KeyframeId{keyframes[k]["id"].id()});
@@ -117,7 +117,7 @@ Json parsed(std::istream& in, const std::string& name) {
 
 }  // namespace
 
-SituationalGraph readGraphJson(std::istream& in, const std::string& name) {
+LayeredGraph readGraphJson(std::istream& in, const std::string& name) {
   const Json json = parsed(in, name);
   const JsonPlace document(json, name.c_str());
   if (document["format"].string() != "mrpt_sgraphs/graph") {
@@ -128,7 +128,7 @@ SituationalGraph readGraphJson(std::istream& in, const std::string& name) {
     document["version"].fail("is " + std::to_string(version) + ": only 1 and 2 can be read");
   }
 
-  SituationalGraph graph;
+  LayeredGraph graph;
   graph.setMapOdom(document["map_odom"].pose());
   addAll(document["floors"], [&](const JsonPlace& place) { addFloor(place, &graph); });
   addAll(document["walls"], [&](const JsonPlace& place) { addWall(place, &graph); });

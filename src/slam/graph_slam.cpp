@@ -21,7 +21,7 @@ std::string sentence(const GaugeFreedom& freedom) {
          " directions that no factor holds";
 }
 
-OptimizationSummary summaryOf(const OptimizerReport& report, const SituationalGraph& graph) {
+OptimizationSummary summaryOf(const OptimizerReport& report, const LayeredGraph& graph) {
   OptimizationSummary summary;
   summary.kind = "full";
   summary.mode = "baseline";
@@ -56,7 +56,7 @@ struct GraphSlam::State {
   State(const LoopCloserConfig& loops, const SolverConfig& solver)
       : loop_closer(loops), solver(solver) {}
 
-  SituationalGraph graph;
+  LayeredGraph graph;
   LoopCloser loop_closer;
   SolverConfig solver;
   Optimizer optimizer;
@@ -72,7 +72,7 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
   if (keyframe.cloud == nullptr || keyframe.cloud->empty()) {
     throw std::invalid_argument("a keyframe needs a cloud");
   }
-  SituationalGraph& graph = state_->graph;
+  LayeredGraph& graph = state_->graph;
   const GraphSnapshotConstPtr before = graph.snapshot();
   if (!before->keyframes.empty() && keyframe.stamp_s <= before->stamp_s) {
     throw std::invalid_argument("a keyframe of " + std::to_string(keyframe.stamp_s) +
@@ -104,7 +104,7 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
 }
 
 OptimizationSummary GraphSlam::optimize() {
-  SituationalGraph& graph = state_->graph;
+  LayeredGraph& graph = state_->graph;
   const OptimizerReport report =
       optimizeSelection(selectAll(graph), state_->solver.optimizer, &state_->optimizer, &graph);
   const uint32_t keyframes = static_cast<uint32_t>(graph.size(Layer::kKeyframe));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "mrpt_sgraphs/factors/plane_observation.h"
 #include "mrpt_sgraphs/factors/relative_pose.h"
 #include "mrpt_sgraphs/factors/relative_pose_quaternion.h"
 #include "support/factor_laws.h"
@@ -55,6 +56,16 @@ TEST(RelativePoseQuaternion, TakesTheShorterWayRound) {
     const auto e = factor.evaluate(Pose::Identity(), T, nullptr, nullptr);
     EXPECT_NEAR(e(5), std::sin(0.5 * shorter_rad), 1e-12) << angle_rad;
   }
+}
+
+TEST(ResidualFactor, RefusesANodeThatHasAnotherTypeOfVariable) {
+  const Matrix6 information = Matrix6::Identity();
+  EXPECT_THROW(RelativePoseFactor(KeyframeId{0}, WallId{1}, Pose::Identity(), information),
+               std::invalid_argument);
+  EXPECT_THROW(PlaneObservationFactor(KeyframeId{0}, RoomId{1}, Plane{},
+                                      Eigen::Matrix3d::Identity()),
+               std::invalid_argument);
+  EXPECT_NO_THROW(RelativePoseFactor(KeyframeId{0}, RoomId{1}, Pose::Identity(), information));
 }
 
 }  // namespace

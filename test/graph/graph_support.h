@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "mrpt_sgraphs/factors/plane_observation.h"
-#include "mrpt_sgraphs/graph/situational_graph.h"
+#include "mrpt_sgraphs/graph/layered_graph.h"
 #include "support/random_geometry.h"
 
 namespace mrpt_sgraphs::test {

@@ -139,7 +139,7 @@ class GraphOperations : public ::testing::TestWithParam<unsigned> {
   }
 
   void expectSameNetwork() const {
-    const SituationalGraph::Network& network = graph_.network();
+    const LayeredGraph::Network& network = graph_.network();
     ASSERT_EQ(network.nodes.size(), poses_.size());
     for (const auto& [id, T_map_base] : poses_) {
       const auto& node = network.nodes.at(id.value);
@@ -172,7 +172,7 @@ class GraphOperations : public ::testing::TestWithParam<unsigned> {
   }
 
   test::RandomGeometry random_{GetParam(), 50.0};
-  SituationalGraph graph_;
+  LayeredGraph graph_;
   std::vector<KeyframeId> keyframes_;
   std::vector<WallId> walls_;
   std::map<KeyframeId, Pose> poses_;

@@ -12,8 +12,8 @@ namespace {
 Pose at(double x) { return Pose(Eigen::Translation3d(x, 0.0, 0.0)); }
 
 /// A thousand keyframes in a row that see fifty walls.
-SituationalGraph longWalk() {
-  SituationalGraph graph;
+LayeredGraph longWalk() {
+  LayeredGraph graph;
   for (int k = 0; k < 50; ++k) graph.addWall({Eigen::Vector3d::UnitY(), 1.0 * k}, {});
   for (uint64_t k = 0; k < 1000; ++k) {
     const double x = static_cast<double>(k);
@@ -25,7 +25,7 @@ SituationalGraph longWalk() {
 }
 
 TEST(GraphSnapshot, IsTheSameObjectUntilSomethingChanges) {
-  SituationalGraph graph = longWalk();
+  LayeredGraph graph = longWalk();
   GraphSnapshotConstPtr last = graph.snapshot();
   EXPECT_EQ(graph.snapshot(), last);
   const auto expectNew = [&](const char* after) {
@@ -52,7 +52,7 @@ TEST(GraphSnapshot, IsTheSameObjectUntilSomethingChanges) {
 }
 
 TEST(GraphSnapshot, HasEverythingOfTheGraph) {
-  SituationalGraph graph = longWalk();
+  LayeredGraph graph = longWalk();
   RoomAttributes room;
   room.walls = {WallId{1}, WallId{2}};
   graph.addRoom(at(3.0), room);
@@ -75,7 +75,7 @@ TEST(GraphSnapshot, HasEverythingOfTheGraph) {
 }
 
 TEST(GraphSnapshot, StaysAsItWas) {
-  SituationalGraph graph = longWalk();
+  LayeredGraph graph = longWalk();
   const GraphSnapshotConstPtr before = graph.snapshot();
   const FactorConstPtr factor = before->factors[0].factor;
   for (uint64_t k = 0; k < 1000; ++k) graph.setPose(KeyframeId{k}, at(-1.0));
@@ -92,7 +92,7 @@ TEST(GraphSnapshot, StaysAsItWas) {
 }
 
 TEST(GraphSnapshot, CostsWhatHasChanged) {
-  SituationalGraph graph = longWalk();
+  LayeredGraph graph = longWalk();
   const GraphSnapshotConstPtr before = graph.snapshot();
   graph.setPose(KeyframeId{300}, at(0.0));
   graph.setPose(KeyframeId{301}, at(0.0));
@@ -109,7 +109,7 @@ TEST(GraphSnapshot, CostsWhatHasChanged) {
 }
 
 TEST(GraphSnapshot, IsReadInAnotherThreadWhileTheGraphGoesOn) {
-  SituationalGraph graph = longWalk();
+  LayeredGraph graph = longWalk();
   for (int round = 0; round < 20; ++round) {
     for (uint64_t k = 0; k < 1000; ++k) graph.setPose(KeyframeId{k}, at(round));
     GraphSnapshotConstPtr snapshot = graph.snapshot();

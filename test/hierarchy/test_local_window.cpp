@@ -118,7 +118,7 @@ class LocalWindowTest : public ::testing::Test {
 
   test::SmallWorld world_{kKeyframes};
   test::RandomGeometry random_{5};
-  SituationalGraph graph_;
+  LayeredGraph graph_;
   int size_ = 0;
 };
 
@@ -200,7 +200,7 @@ TEST_F(LocalWindowTest, HoldsTheFirstKeyframeWhereThereIsNothingElse) {
   LocalWindow window(kWindow);
   expectSameAsWithoutSums(&window);
   EXPECT_THROW(LocalWindow(0), std::invalid_argument);
-  EXPECT_TRUE(LocalWindow(3).select(SituationalGraph()).free.empty());
+  EXPECT_TRUE(LocalWindow(3).select(LayeredGraph()).free.empty());
 }
 
 TEST_F(LocalWindowTest, ARoomIsFreeAndItsOtherWallsStay) {

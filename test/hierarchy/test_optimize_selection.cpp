@@ -63,7 +63,7 @@ class OptimizeSelection : public ::testing::Test {
   }
 
   /// Bit by bit, in the graph and in MRPT's network.
-  static bool isSame(NodeId node, const SituationalGraph& a, const SituationalGraph& b) {
+  static bool isSame(NodeId node, const LayeredGraph& a, const LayeredGraph& b) {
     const auto equal = [](const auto& x, const auto& y) {
       return std::memcmp(&x, &y, sizeof(x)) == 0;
     };
@@ -88,7 +88,7 @@ class OptimizeSelection : public ::testing::Test {
 
   /// What a selection does: those that are free move, all others stay.
   void expectMovesOnlyTheFree(const Selection& selection) {
-    SituationalGraph before;
+    LayeredGraph before;
     for (uint32_t k = 0; k < graph_.size(Layer::kKeyframe); ++k) {
       before.addKeyframe(graph_.pose(NodeHandle{Layer::kKeyframe, k}), {});
     }
@@ -109,7 +109,7 @@ class OptimizeSelection : public ::testing::Test {
   }
 
   test::RandomGeometry random_{7};
-  SituationalGraph graph_;
+  LayeredGraph graph_;
 };
 
 TEST_F(OptimizeSelection, MovesAllButTheFirstKeyframeOfTheWholeGraph) {
@@ -168,7 +168,7 @@ TEST_F(OptimizeSelection, RefusesNodesThatAreTwiceOrNotThere) {
 TEST_F(OptimizeSelection, HasNothingToDoForNoNodes) {
   Optimizer optimizer;
   EXPECT_TRUE(optimizeSelection({}, {}, &optimizer, &graph_).converged);
-  SituationalGraph empty;
+  LayeredGraph empty;
   EXPECT_TRUE(optimizeSelection(selectAll(empty), {}, &optimizer, &empty).converged);
 }
 

@@ -66,7 +66,7 @@ class Rounds {
     return worst;
   }
 
-  SituationalGraph graph;
+  LayeredGraph graph;
 };
 
 TEST(OptimizeWholeGraph, FindsTheTruthThatTheEdgesAgreeOn) {
@@ -121,7 +121,7 @@ TEST(OptimizeWholeGraph, NamesPartsThatNothingHolds) {
 }
 
 TEST(OptimizeWholeGraph, HasNothingToDoForOneKeyframe) {
-  SituationalGraph graph;
+  LayeredGraph graph;
   graph.addKeyframe(Pose::Identity(), {});
   Optimizer optimizer;
   EXPECT_TRUE(optimizeSelection(selectAll(graph), {}, &optimizer, &graph).converged);

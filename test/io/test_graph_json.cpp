@@ -22,13 +22,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string written(const SituationalGraph& graph) {
+std::string written(const LayeredGraph& graph) {
   std::ostringstream out;
   writeGraphJson(*graph.snapshot(), out);
   return out.str();
 }
 
-SituationalGraph read(const std::string& text) {
+LayeredGraph read(const std::string& text) {
   std::istringstream in(text);
   return readGraphJson(in);
 }
@@ -121,7 +121,7 @@ class GraphJsonTest : public ::testing::Test {
   }
 
   test::RandomGeometry random_{23, 500.0};
-  SituationalGraph graph_;
+  LayeredGraph graph_;
 };
 
 TEST_F(GraphJsonTest, WhatIsReadIsWrittenAgainToTheLastDigit) {
@@ -138,7 +138,7 @@ TEST_F(GraphJsonTest, PosesOfAnyRotationStayWhatTheyAre) {
     graph_.addKeyframe(T, {});
   }
   const std::string text = written(graph_);
-  const SituationalGraph again = read(text);
+  const LayeredGraph again = read(text);
   EXPECT_EQ(written(again), text);
   for (const KeyframeNode& keyframe : graph_.snapshot()->keyframes) {
     const Pose T = again.pose(keyframe.id);
@@ -148,7 +148,7 @@ TEST_F(GraphJsonTest, PosesOfAnyRotationStayWhatTheyAre) {
 }
 
 TEST_F(GraphJsonTest, EveryFactorCostsTheSameAfterwards) {
-  const SituationalGraph again = read(written(graph_));
+  const LayeredGraph again = read(written(graph_));
   ASSERT_EQ(again.factorCount(), graph_.factorCount());
   for (uint32_t k = 0; k < graph_.factorCount(); ++k) {
     const Factor& before = *graph_.factorAt(k).factor;
@@ -174,7 +174,7 @@ TEST_F(GraphJsonTest, EveryFactorCostsTheSameAfterwards) {
 }
 
 TEST_F(GraphJsonTest, NodesKeepWhatIsKnownOfThem) {
-  const SituationalGraph again = read(written(graph_));
+  const LayeredGraph again = read(written(graph_));
   EXPECT_EQ(again.attributes(KeyframeId{1}).representative, KeyframeId{0});
   EXPECT_TRUE(again.attributes(KeyframeId{1}).marginalized);
   EXPECT_EQ(again.attributes(KeyframeId{6}).room, std::nullopt);

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "keyframes_of_a_walk.h"
-#include "mrpt_sgraphs/graph/situational_graph.h"
+#include "mrpt_sgraphs/graph/layered_graph.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -14,7 +14,7 @@ using test::KeyframeWithTruth;
 using test::WalkErrors;
 
 /// Adds to the graph that a walk makes, without any loop in it.
-void add(const Keyframe& keyframe, SituationalGraph* graph) {
+void add(const Keyframe& keyframe, LayeredGraph* graph) {
   KeyframeAttributes attributes;
   attributes.stamp_s = keyframe.stamp_s;
   attributes.T_odom_base = keyframe.T_odom_base;
@@ -31,7 +31,7 @@ void add(const Keyframe& keyframe, SituationalGraph* graph) {
 std::vector<LoopClosure> loopsOf(const std::vector<KeyframeWithTruth>& walk,
                                  const LoopCloserConfig& config = {}) {
   LoopCloser closer(config);
-  SituationalGraph graph;
+  LayeredGraph graph;
   std::vector<LoopClosure> loops;
   for (const KeyframeWithTruth& step : walk) {
     add(step.keyframe, &graph);

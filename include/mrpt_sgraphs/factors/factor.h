@@ -6,7 +6,9 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <stdexcept>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "mrpt_sgraphs/factors/robust_kernel.h"
@@ -110,9 +112,16 @@ class ResidualFactor : public Factor {
 
  protected:
   /// @param information  Inverse covariance of the residual: symmetric, positive semidefinite.
+  /// @throws std::invalid_argument for a node of a layer that has another type of variable.
   ResidualFactor(const std::array<NodeId, kNodes>& nodes, const Information& information,
                  const RobustKernel& kernel = {})
-      : nodes_(nodes), information_(information), kernel_(kernel) {}
+      : nodes_(nodes), information_(information), kernel_(kernel) {
+    constexpr std::array<bool, kNodes> kPlanes{std::is_same_v<Variables, Plane>...};
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (isPlane(nodes[k].layer) == kPlanes[k]) continue;
+      throw std::invalid_argument(nameOf(nodes[k]) + " is " + (kPlanes[k] ? "no plane" : "no pose"));
+    }
+  }
 
  private:
   template <std::size_t... I>

@@ -22,15 +22,15 @@ class LocalWindow {
   explicit LocalWindow(std::size_t keyframes);
 
   /// The window at the end of the graph.
-  Selection select(const SituationalGraph& graph);
+  Selection select(const LayeredGraph& graph);
 
   /// To be called when keyframes behind the window have moved, or the surfaces far: the next window
   /// sums up from the start again. That something was erased it sees for itself.
   void forget();
 
  private:
-  void catchUp(const SituationalGraph& graph, uint32_t first_in_window);
-  void add(const SituationalGraph& graph, uint32_t factor);
+  void catchUp(const LayeredGraph& graph, uint32_t first_in_window);
+  void add(const LayeredGraph& graph, uint32_t factor);
 
   std::size_t keyframes_;
   std::unordered_map<NodeId, ObservationSum> sums_;  ///< By wall or floor.

@@ -15,6 +15,6 @@ namespace mrpt_sgraphs {
 ///         nodes for one that is there twice, or for a factor to a node outside of the selection
 ///         unless that says to leave it out. The graph is then as it was.
 OptimizerReport optimizeSelection(const Selection& selection, const OptimizerConfig& config,
-                                  Optimizer* optimizer, SituationalGraph* graph);
+                                  Optimizer* optimizer, LayeredGraph* graph);
 
 }  // namespace mrpt_sgraphs

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mrpt_sgraphs/factors/summed_observations.h"
-#include "mrpt_sgraphs/graph/situational_graph.h"
+#include "mrpt_sgraphs/graph/layered_graph.h"
 
 namespace mrpt_sgraphs {
 
@@ -27,6 +27,6 @@ struct Selection {
 };
 
 /// The whole graph; the first keyframe stays, so that the map does.
-Selection selectAll(const SituationalGraph& graph);
+Selection selectAll(const LayeredGraph& graph);
 
 }  // namespace mrpt_sgraphs

@@ -6,7 +6,7 @@
 #include <istream>
 #include <string>
 
-#include "mrpt_sgraphs/graph/situational_graph.h"
+#include "mrpt_sgraphs/graph/layered_graph.h"
 
 namespace mrpt_sgraphs {
 
@@ -16,6 +16,6 @@ namespace mrpt_sgraphs {
 /// @param name  What the file is called in errors.
 /// @throws std::runtime_error that says where in the file what is wrong, for anything else: no JSON,
 ///         another version, a field that is missing or of the wrong type, a node that is not there.
-SituationalGraph readGraphJson(std::istream& in, const std::string& name = "graph.json");
+LayeredGraph readGraphJson(std::istream& in, const std::string& name = "graph.json");
 
 }  // namespace mrpt_sgraphs

@@ -42,7 +42,7 @@ class GraphSlam {
   const Pose& T_map_odom() const;
 
  private:
-  struct State;  ///< Not in the header: the graph has the name of a message.
+  struct State;  ///< Not in the header: graph and solver are slow to compile.
 
   std::unique_ptr<State> state_;
 };

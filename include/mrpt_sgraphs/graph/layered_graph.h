@@ -20,9 +20,8 @@ namespace mrpt_sgraphs {
 /// edges come and go with the relative poses between keyframes, so both views are always one.
 ///
 /// Belongs to one thread; others read its snapshots. Nodes are named by their ids for ever; handles
-/// are their places, for what walks the whole graph. (The message of this name is another thing: a
-/// source file sees only one of the two.)
-class SituationalGraph {
+/// are their places, for what walks the whole graph.
+class LayeredGraph {
  public:
   using Network = KeyframeNetwork::Network;
 

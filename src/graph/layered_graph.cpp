@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mrpt_sgraphs/graph/situational_graph.h"
+#include "mrpt_sgraphs/graph/layered_graph.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -35,7 +35,7 @@ void requirePlane(const Plane& plane, NodeId node) {
 
 /// What `visit` makes of the nodes of a layer.
 template <typename Visit>
-auto SituationalGraph::inLayer(Layer layer, const Visit& visit) const {
+auto LayeredGraph::inLayer(Layer layer, const Visit& visit) const {
   switch (layer) {
     case Layer::kKeyframe:
       return visit(keyframes_);
@@ -49,32 +49,32 @@ auto SituationalGraph::inLayer(Layer layer, const Visit& visit) const {
   return visit(floors_);
 }
 
-KeyframeId SituationalGraph::addKeyframe(const Pose& T_map_base,
+KeyframeId LayeredGraph::addKeyframe(const Pose& T_map_base,
                                          const KeyframeAttributes& attributes) {
   const KeyframeId id = keyframes_.nextId();
   restoreKeyframe(id, T_map_base, attributes);
   return id;
 }
 
-WallId SituationalGraph::addWall(const Plane& plane_map, const WallAttributes& attributes) {
+WallId LayeredGraph::addWall(const Plane& plane_map, const WallAttributes& attributes) {
   const WallId id = walls_.nextId();
   restoreWall(id, plane_map, attributes);
   return id;
 }
 
-RoomId SituationalGraph::addRoom(const Pose& T_map_room, const RoomAttributes& attributes) {
+RoomId LayeredGraph::addRoom(const Pose& T_map_room, const RoomAttributes& attributes) {
   const RoomId id = rooms_.nextId();
   restoreRoom(id, T_map_room, attributes);
   return id;
 }
 
-FloorId SituationalGraph::addFloor(const Plane& ground_map, const FloorAttributes& attributes) {
+FloorId LayeredGraph::addFloor(const Plane& ground_map, const FloorAttributes& attributes) {
   const FloorId id = floors_.nextId();
   restoreFloor(id, ground_map, attributes);
   return id;
 }
 
-void SituationalGraph::restoreKeyframe(KeyframeId id, const Pose& T_map_base,
+void LayeredGraph::restoreKeyframe(KeyframeId id, const Pose& T_map_base,
                                        const KeyframeAttributes& attributes) {
   requirePose(T_map_base, id);
   keyframes_.add({attributes, id, T_map_base});
@@ -84,7 +84,7 @@ void SituationalGraph::restoreKeyframe(KeyframeId id, const Pose& T_map_base,
   snapshot_.reset();
 }
 
-void SituationalGraph::restoreWall(WallId id, const Plane& plane_map,
+void LayeredGraph::restoreWall(WallId id, const Plane& plane_map,
                                    const WallAttributes& attributes) {
   requirePlane(plane_map, id);
   walls_.add({attributes, id, plane_map});
@@ -92,7 +92,7 @@ void SituationalGraph::restoreWall(WallId id, const Plane& plane_map,
   snapshot_.reset();
 }
 
-void SituationalGraph::restoreRoom(RoomId id, const Pose& T_map_room,
+void LayeredGraph::restoreRoom(RoomId id, const Pose& T_map_room,
                                    const RoomAttributes& attributes) {
   requirePose(T_map_room, id);
   rooms_.add({attributes, id, T_map_room});
@@ -100,7 +100,7 @@ void SituationalGraph::restoreRoom(RoomId id, const Pose& T_map_room,
   snapshot_.reset();
 }
 
-void SituationalGraph::restoreFloor(FloorId id, const Plane& ground_map,
+void LayeredGraph::restoreFloor(FloorId id, const Plane& ground_map,
                                     const FloorAttributes& attributes) {
   requirePlane(ground_map, id);
   floors_.add({attributes, id, ground_map});
@@ -108,7 +108,7 @@ void SituationalGraph::restoreFloor(FloorId id, const Plane& ground_map,
   snapshot_.reset();
 }
 
-void SituationalGraph::eraseNode(NodeId node) {
+void LayeredGraph::eraseNode(NodeId node) {
   const NodeHandle place = handle(node);
   while (!topology_.sightings(place).empty()) eraseFactor(topology_.sightings(place).back().id);
   while (!topology_.others(place).empty()) eraseFactor(topology_.others(place).back().id);
@@ -129,7 +129,7 @@ void SituationalGraph::eraseNode(NodeId node) {
   snapshot_.reset();
 }
 
-FactorId SituationalGraph::addFactor(FactorConstPtr factor) {
+FactorId LayeredGraph::addFactor(FactorConstPtr factor) {
   const std::vector<NodeHandle> nodes = validated(factor);
   const FactorId id{next_factor_++};
   const RelativePoseFactor* const edge = keyframeEdge(*factor);
@@ -142,7 +142,7 @@ FactorId SituationalGraph::addFactor(FactorConstPtr factor) {
   return id;
 }
 
-void SituationalGraph::eraseFactor(FactorId id) {
+void LayeredGraph::eraseFactor(FactorId id) {
   const uint32_t slot = factorSlot(id);
   ++erasures_;
   if (edges_[slot]) network_.eraseEdge(*edges_[slot]);
@@ -159,7 +159,7 @@ void SituationalGraph::eraseFactor(FactorId id) {
   snapshot_.reset();
 }
 
-std::vector<NodeHandle> SituationalGraph::validated(const FactorConstPtr& factor) const {
+std::vector<NodeHandle> LayeredGraph::validated(const FactorConstPtr& factor) const {
   if (factor == nullptr || factor->nodeCount() == 0) {
     throw std::invalid_argument("a factor without nodes");
   }
@@ -187,57 +187,57 @@ std::vector<NodeHandle> SituationalGraph::validated(const FactorConstPtr& factor
   return nodes;
 }
 
-bool SituationalGraph::contains(NodeId node) const {
+bool LayeredGraph::contains(NodeId node) const {
   return inLayer(node.layer, [&](const auto& nodes) { return nodes.contains({node.value}); });
 }
 
-void SituationalGraph::setMapOdom(const Pose& T_map_odom) {
+void LayeredGraph::setMapOdom(const Pose& T_map_odom) {
   T_map_odom_ = T_map_odom;
   snapshot_.reset();
 }
 
-void SituationalGraph::setAttributes(KeyframeId id, const KeyframeAttributes& attributes) {
+void LayeredGraph::setAttributes(KeyframeId id, const KeyframeAttributes& attributes) {
   static_cast<KeyframeAttributes&>(keyframes_.edit(slotOf(id))) = attributes;
   snapshot_.reset();
 }
 
-void SituationalGraph::setAttributes(WallId id, const WallAttributes& attributes) {
+void LayeredGraph::setAttributes(WallId id, const WallAttributes& attributes) {
   static_cast<WallAttributes&>(walls_.edit(slotOf(id))) = attributes;
   snapshot_.reset();
 }
 
-void SituationalGraph::setAttributes(RoomId id, const RoomAttributes& attributes) {
+void LayeredGraph::setAttributes(RoomId id, const RoomAttributes& attributes) {
   static_cast<RoomAttributes&>(rooms_.edit(slotOf(id))) = attributes;
   snapshot_.reset();
 }
 
-void SituationalGraph::setAttributes(FloorId id, const FloorAttributes& attributes) {
+void LayeredGraph::setAttributes(FloorId id, const FloorAttributes& attributes) {
   static_cast<FloorAttributes&>(floors_.edit(slotOf(id))) = attributes;
   snapshot_.reset();
 }
 
-std::size_t SituationalGraph::size(Layer layer) const {
+std::size_t LayeredGraph::size(Layer layer) const {
   return inLayer(layer, [](const auto& nodes) { return nodes.size(); });
 }
 
-NodeHandle SituationalGraph::handle(NodeId node) const {
+NodeHandle LayeredGraph::handle(NodeId node) const {
   return {node.layer,
           inLayer(node.layer, [&](const auto& nodes) { return nodes.slot({node.value}); })};
 }
 
-NodeId SituationalGraph::nodeAt(NodeHandle node) const {
+NodeId LayeredGraph::nodeAt(NodeHandle node) const {
   return inLayer(node.layer, [&](const auto& nodes) { return NodeId(nodes[node.slot].id); });
 }
 
-Pose SituationalGraph::pose(NodeHandle node) const {
+Pose LayeredGraph::pose(NodeHandle node) const {
   return node.layer == Layer::kKeyframe ? network_.pose(node.slot) : rooms_[node.slot].T_map_room;
 }
 
-Plane SituationalGraph::plane(NodeHandle node) const {
+Plane LayeredGraph::plane(NodeHandle node) const {
   return node.layer == Layer::kWall ? walls_[node.slot].plane_map : floors_[node.slot].ground_map;
 }
 
-void SituationalGraph::setPose(NodeHandle node, const Pose& T) {
+void LayeredGraph::setPose(NodeHandle node, const Pose& T) {
   requirePose(T, nodeAt(node));
   if (node.layer == Layer::kKeyframe) {
     network_.setPose(node.slot, T);
@@ -248,7 +248,7 @@ void SituationalGraph::setPose(NodeHandle node, const Pose& T) {
   snapshot_.reset();
 }
 
-void SituationalGraph::setPlane(NodeHandle node, const Plane& plane) {
+void LayeredGraph::setPlane(NodeHandle node, const Plane& plane) {
   requirePlane(plane, nodeAt(node));
   Plane& place = node.layer == Layer::kWall ? walls_.edit(node.slot).plane_map
                                             : floors_.edit(node.slot).ground_map;
@@ -256,7 +256,7 @@ void SituationalGraph::setPlane(NodeHandle node, const Plane& plane) {
   snapshot_.reset();
 }
 
-GraphSnapshotConstPtr SituationalGraph::snapshot() const {
+GraphSnapshotConstPtr LayeredGraph::snapshot() const {
   if (snapshot_ != nullptr) return snapshot_;
   writeMovedPoses();
   auto snapshot = std::make_shared<GraphSnapshot>();
@@ -271,7 +271,7 @@ GraphSnapshotConstPtr SituationalGraph::snapshot() const {
   return snapshot_;
 }
 
-uint32_t SituationalGraph::factorSlot(FactorId id) const {
+uint32_t LayeredGraph::factorSlot(FactorId id) const {
   const auto found = factor_slots_.find(id);
   if (found == factor_slots_.end()) {
     throw std::out_of_range("factor " + std::to_string(id.value) + " is not in the graph");
@@ -279,13 +279,13 @@ uint32_t SituationalGraph::factorSlot(FactorId id) const {
   return found->second;
 }
 
-void SituationalGraph::markMoved(uint32_t keyframe) {
+void LayeredGraph::markMoved(uint32_t keyframe) {
   if (is_moved_[keyframe]) return;
   is_moved_[keyframe] = true;
   moved_.push_back(keyframe);
 }
 
-void SituationalGraph::writeMovedPoses() const {
+void LayeredGraph::writeMovedPoses() const {
   for (const uint32_t slot : moved_) {
     keyframes_.edit(slot).T_map_base = network_.pose(slot);
     is_moved_[slot] = false;
