@@ -3,6 +3,7 @@
 
 #include "mrpt_sgraphs/slam/graph_slam.h"
 
+#include <Eigen/Cholesky>
 #include <stdexcept>
 #include <string>
 
@@ -78,6 +79,12 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
     throw std::invalid_argument("a keyframe of " + std::to_string(keyframe.stamp_s) +
                                 " s is not newer than the last one of " +
                                 std::to_string(before->stamp_s) + " s");
+  }
+
+  const bool known = keyframe.covariance.allFinite() &&
+                     keyframe.covariance.llt().info() == Eigen::Success;
+  if (!before->keyframes.empty() && !known) {
+    throw std::invalid_argument("the covariance of a keyframe is not positive definite");
   }
 
   KeyframeAttributes attributes;

@@ -56,6 +56,9 @@ TEST(GraphSlam, RefusesKeyframesWithoutCloudOrOutOfOrder) {
   empty.cloud.reset();
   EXPECT_THROW(slam.addKeyframe(empty), std::invalid_argument);
   EXPECT_THROW(slam.addKeyframe(keyframeAt(2.0, 1.0)), std::invalid_argument);
+  Keyframe unknown = keyframeAt(3.0, 1.0);
+  unknown.covariance(3, 3) = -1.0;
+  EXPECT_THROW(slam.addKeyframe(unknown), std::invalid_argument);
   EXPECT_EQ(slam.snapshot()->keyframes.size(), 1U);
 }
 

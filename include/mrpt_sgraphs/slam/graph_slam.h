@@ -29,7 +29,8 @@ class GraphSlam {
   ~GraphSlam();
 
   /// Takes the keyframe into the graph, looks for loops and optimizes if there are any.
-  /// @throws std::invalid_argument for a keyframe without a cloud or not newer than the last one.
+  /// @throws std::invalid_argument for a keyframe without a cloud, not newer than the last one, or
+  ///         with a covariance that is not positive definite; the graph is then as it was.
   KeyframeOutcome addKeyframe(const Keyframe& keyframe);
 
   /// Optimizes the whole graph now.
