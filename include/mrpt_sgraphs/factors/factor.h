@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -110,9 +111,12 @@ class ResidualFactor : public Factor {
 
  protected:
   /// @param information  Inverse covariance of the residual: symmetric, positive semidefinite.
+  /// @throws std::invalid_argument if the kernel's width is not above zero, or not finite.
   ResidualFactor(const std::array<NodeId, kNodes>& nodes, const Information& information,
                  const RobustKernel& kernel = {})
-      : nodes_(nodes), information_(information), kernel_(kernel) {}
+      : nodes_(nodes), information_(information), kernel_(kernel) {
+    if (!kernel.isSound()) throw std::invalid_argument("a robust kernel's width is none");
+  }
 
  private:
   template <std::size_t... I>
