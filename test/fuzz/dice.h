@@ -39,8 +39,8 @@ class Dice {
   /// Turned little, in any way, or by half a turn but for rounding.
   Pose pose(double extent_m) {
     Tangent delta;
-    const double angle = oneOf(std::vector<double>{0.0, 1e-9, 0.3, M_PI * unit(), M_PI,
-                                                   M_PI - 1e-8 * unit()});
+    const double angle =
+        oneOf(std::vector<double>{0.0, 1e-9, 0.3, M_PI * unit(), M_PI, M_PI - 1e-8 * unit()});
     delta << vector(extent_m), angle * direction();
     return expPose(delta);
   }

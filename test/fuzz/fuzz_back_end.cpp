@@ -64,9 +64,8 @@ double cpu_s() {
 /// @return How long it took.
 template <typename Trial>
 double run(const char* options, uint64_t seed, const Trial& trial) {
-  std::snprintf(current_trial, sizeof current_trial,
-                "the trial: fuzz_back_end %s --seed %llu\n", options,
-                static_cast<unsigned long long>(seed));
+  std::snprintf(current_trial, sizeof current_trial, "the trial: fuzz_back_end %s --seed %llu\n",
+                options, static_cast<unsigned long long>(seed));
   alarm(kHangs_s);
   const double start_s = cpu_s();
   Dice dice(seed);
@@ -90,17 +89,17 @@ void runAll(const Options& options) {
   Tally graphs;
   double longest_s = 0.0;
   for (uint64_t k = 0; k < options.graphs; ++k) {
-    longest_s = std::max(longest_s, run("--graphs 1 --mutations 0", options.seed + k, [&](Dice* dice) {
-                           dice->chance(0.5) ? tryProblem(dice, &graphs) : tryGraph(dice, &graphs);
-                         }));
+    longest_s =
+        std::max(longest_s, run("--graphs 1 --mutations 0", options.seed + k, [&](Dice* dice) {
+                   dice->chance(0.5) ? tryProblem(dice, &graphs) : tryGraph(dice, &graphs);
+                 }));
   }
   print("graphs", options.graphs, longest_s, graphs);
   Tally files;
   longest_s = 0.0;
   for (uint64_t k = 0; k < options.mutations; ++k) {
-    longest_s = std::max(longest_s, run("--graphs 0 --mutations 1", options.seed + k, [&](Dice* dice) {
-                           tryFile(folder.path(), dice, &files);
-                         }));
+    longest_s = std::max(longest_s, run("--graphs 0 --mutations 1", options.seed + k,
+                                        [&](Dice* dice) { tryFile(folder.path(), dice, &files); }));
   }
   print("file mutations", options.mutations, longest_s, files);
 }

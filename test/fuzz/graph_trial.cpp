@@ -139,6 +139,7 @@ void checkFile(const SituationalGraph& graph) {
 
 void tryGraph(Dice* dice, Tally* tally) {
   const RandomGraph made = randomGraph(randomDamage(dice), dice);
+  for (const auto& error : made.refusals) tally->refused("to make a factor", error);
   SituationalGraph graph;
   for (const RandomGraph::Node& node : made.nodes) {
     try {

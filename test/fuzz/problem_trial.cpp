@@ -162,6 +162,7 @@ void checkReport(const OptimizerReport& report) {
 
 void tryProblem(Dice* dice, Tally* tally) {
   const RandomGraph graph = randomGraph(randomDamage(dice), dice);
+  for (const auto& error : graph.refusals) tally->refused("to make a factor", error);
   Problem problem;
   std::unordered_map<NodeId, int> variables;
   for (const RandomGraph::Node& node : graph.nodes) {

@@ -33,7 +33,7 @@ class Maker {
     makeChain();
     const std::size_t factors = dice_.below(2 * graph_.nodes.size() + 1);
     for (std::size_t k = 0; k < factors; ++k) {
-      if (FactorConstPtr factor = makeFactor()) graph_.factors.push_back(std::move(factor));
+      attempt([&] { return makeFactor(); });
       if (!graph_.factors.empty() && dice_.chance(0.05)) {
         graph_.factors.push_back(dice_.oneOf(graph_.factors));
       }
@@ -153,6 +153,16 @@ class Maker {
     }
   }
 
+  /// @param make  Gives a factor, or null if the graph has not the nodes for it.
+  template <typename Make>
+  void attempt(const Make& make) {
+    try {
+      if (FactorConstPtr factor = make()) graph_.factors.push_back(std::move(factor));
+    } catch (const std::invalid_argument& error) {
+      graph_.refusals.push_back(error);
+    }
+  }
+
   /// Keyframe after keyframe; torn here and there in every second graph.
   void makeChain() {
     const double torn = dice_.chance(0.5) ? 0.0 : 0.3;
@@ -160,7 +170,8 @@ class Maker {
     for (const RandomGraph::Node& node : graph_.nodes) {
       if (node.id.layer != Layer::kKeyframe) continue;
       if (last != nullptr && !dice_.chance(torn)) {
-        graph_.factors.push_back(relativePose(last->id, node.id, RelativePoseFactor::Kind::kOdometry));
+        attempt(
+            [&] { return relativePose(last->id, node.id, RelativePoseFactor::Kind::kOdometry); });
       }
       last = &node;
     }
@@ -226,8 +237,8 @@ class Maker {
     switch (dice_.below(12)) {
       case 0:
         if (!pickAny(false, &from) || !pickAny(false, &to)) return nullptr;
-        return relativePose(from, to,
-                            static_cast<RelativePoseFactor::Kind>(static_cast<int>(dice_.below(4))));
+        return relativePose(
+            from, to, static_cast<RelativePoseFactor::Kind>(static_cast<int>(dice_.below(4))));
       case 1:
         if (!pickAny(false, &from) || !pickAny(false, &to)) return nullptr;
         return std::make_shared<RelativePoseQuaternionFactor>(from, to, measuredPose(from, to),

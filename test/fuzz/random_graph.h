@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <stdexcept>
 #include <variant>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct RandomGraph {
   };
   std::vector<Node> nodes;
   std::vector<FactorConstPtr> factors;  ///< Some name nodes that are not there, or one twice.
+  std::vector<std::invalid_argument> refusals;  ///< Of factors that could not even be made.
 };
 
 /// @param damage  The share of informations, measurements and values that are no such thing: not

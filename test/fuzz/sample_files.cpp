@@ -37,7 +37,8 @@ Pose noise(Dice* dice) {
 }
 
 MrptNetwork sampleNetwork(Dice* dice) {
-  return circlingWalk(static_cast<unsigned>(dice->below(100)), 2 + static_cast<int>(dice->below(16)));
+  return circlingWalk(static_cast<unsigned>(dice->below(100)),
+                      2 + static_cast<int>(dice->below(16)));
 }
 
 std::string contentsOf(const std::string& path) {

@@ -51,6 +51,9 @@ class Tally {
         kind += '#';
       }
     }
+    const std::size_t nodes = kind.find(" between ");  // of a factor
+    const std::size_t after = nodes == std::string::npos ? nodes : kind.find(": ", nodes);
+    if (after != std::string::npos) kind.replace(0, after, "(a factor)");
     return label + kind.substr(0, kMost);
   }
 
