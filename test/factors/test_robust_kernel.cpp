@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "mrpt_sgraphs/factors/robust_kernel.h"
+#include <cmath>
+#include <limits>
+
+#include "mrpt_sgraphs/factors/floor_rooms.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -51,6 +54,19 @@ TEST(RobustKernel, FarOutHuberGrowsLikeTheResidualAndCauchyLikeItsLogarithm) {
   EXPECT_NEAR(huber.cost(4e12) / huber.cost(1e12), 2.0, 1e-3);
   const RobustKernel cauchy{Kind::kCauchy, 4.0};
   EXPECT_NEAR(cauchy.cost(4e12) - cauchy.cost(1e12), 4.0 * std::log(4.0), 1e-6);
+}
+
+TEST(RobustKernel, AFactorWithAWidthThatIsNoneIsRefused) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double width : {0.0, -1.0, kInfinity, std::nan("")}) {
+    for (const Kind kind : {Kind::kHuber, Kind::kCauchy}) {
+      EXPECT_THROW(FloorRoomFactor(FloorId{0}, RoomId{0}, Eigen::Matrix3d::Identity(),
+                                   RobustKernel{kind, width}),
+                   std::invalid_argument);
+    }
+    EXPECT_NO_THROW(FloorRoomFactor(FloorId{0}, RoomId{0}, Eigen::Matrix3d::Identity(),
+                                    RobustKernel{Kind::kNone, width}));
+  }
 }
 
 }  // namespace

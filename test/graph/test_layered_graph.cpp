@@ -160,6 +160,37 @@ TEST(LayeredGraph, RefusesFactorsThatAreNone) {
       << "knows nothing";
 }
 
+TEST(LayeredGraph, RefusesMeasurementsThatAreNoPoseOrPlane) {
+  LayeredGraph graph;
+  const KeyframeId a = graph.addKeyframe(Pose::Identity(), {});
+  const KeyframeId b = graph.addKeyframe(Pose::Identity(), {});
+  const WallId wall = graph.addWall(Plane(), {});
+  Pose sheared = Pose::Identity();
+  sheared.linear()(0, 1) = 0.5;
+  EXPECT_THROW(graph.addFactor(odometry(a, b, sheared)), std::invalid_argument);
+  EXPECT_THROW(graph.addFactor(sight(a, wall, {{0.0, 0.0, 1.1}, 0.0})), std::invalid_argument);
+  EXPECT_EQ(graph.factorCount(), 0U);
+}
+
+TEST(LayeredGraph, TakesEveryOdometryWhoseInformationIsPositive) {
+  // its Hessian is singular: the pivots of some of these are well below zero, the eigenvalues not
+  test::RandomGeometry random(4, 10.0);
+  Tangent weights;
+  weights << 2500.0, 2500.0, 2500.0, 4e4, 4e4, 1e4;
+  const Matrix6 information = weights.asDiagonal();
+  LayeredGraph graph;
+  const KeyframeId a = graph.addKeyframe(Pose::Identity(), {});
+  const KeyframeId b = graph.addKeyframe(Pose::Identity(), {});
+  for (int k = 0; k < 20000; ++k) {
+    graph.setPose(a, random.pose());
+    graph.setPose(b, random.pose());
+    const Pose measured = graph.pose(a).inverse() * graph.pose(b) * random.smallPose(0.05, 0.02);
+    FactorId id;
+    ASSERT_NO_THROW(id = graph.addFactor(odometry(a, b, measured, information))) << k;
+    graph.eraseFactor(id);
+  }
+}
+
 TEST(LayeredGraph, NamesTheNodesOfABadFactor) {
   LayeredGraph graph;
   const KeyframeId a = graph.addKeyframe(Pose::Identity(), {});

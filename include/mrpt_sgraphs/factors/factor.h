@@ -112,10 +112,12 @@ class ResidualFactor : public Factor {
 
  protected:
   /// @param information  Inverse covariance of the residual: symmetric, positive semidefinite.
-  /// @throws std::invalid_argument for a node of a layer that has another type of variable.
+  /// @throws std::invalid_argument for a node of a layer that has another type of variable, or a
+  ///         kernel whose width is not above zero, or not finite.
   ResidualFactor(const std::array<NodeId, kNodes>& nodes, const Information& information,
                  const RobustKernel& kernel = {})
       : nodes_(nodes), information_(information), kernel_(kernel) {
+    if (!kernel.isSound()) throw std::invalid_argument("a robust kernel's width is none");
     constexpr std::array<bool, kNodes> kPlanes{std::is_same_v<Variables, Plane>...};
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (isPlane(nodes[k].layer) == kPlanes[k]) continue;

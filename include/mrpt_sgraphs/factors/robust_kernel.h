@@ -13,7 +13,11 @@ struct RobustKernel {
   enum class Kind { kNone, kHuber, kCauchy };
 
   Kind kind = Kind::kNone;
-  double width_chi2 = 1.0;  ///< The chi2 at which it begins to doubt.
+  double width_chi2 = 1.0;  ///< The chi2 at which it begins to doubt; above zero, and finite.
+
+  bool isSound() const {
+    return kind == Kind::kNone || (width_chi2 > 0.0 && std::isfinite(width_chi2));
+  }
 
   double cost(double chi2) const {
     switch (kind) {

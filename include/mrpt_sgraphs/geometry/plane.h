@@ -47,10 +47,11 @@ inline Plane inverseTimes(const Pose& T_a_b, const Plane& plane_a) {
           plane_a.distance - plane_a.normal.dot(T_a_b.translation())};
 }
 
-/// Moves a plane along its tangent: the normal goes to `n + B(n) [a; b]`, made a unit vector again.
+/// Moves a plane along its tangent: the normal goes to `n + B(n) [a; b]`, made a unit vector again,
+/// also where the square of a step overflows: a solver may try any.
 inline Plane retract(const Plane& plane, const PlaneTangent& delta) {
   const Eigen::Vector3d moved = plane.normal + tangentBasis(plane.normal) * delta.head<2>();
-  return {moved.normalized(), plane.distance + delta.z()};
+  return {moved.stableNormalized(), plane.distance + delta.z()};
 }
 
 /// Inverse of retract: retract(p, local(p, q)) == q, for normals less than 90 degrees apart.
