@@ -7,6 +7,9 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
+#include <string>
+#include <utility>
 
 #include "gauge.h"
 #include "mrpt_sgraphs/geometry/cpu_time.h"
@@ -32,7 +35,7 @@ constexpr double kNoStep = 1e-12;
 /// The model's promise was kept well enough to trust it further.
 constexpr double kGoodGain = 0.5;
 
-std::string thousandths(double seconds) {
+std::string inMilliseconds(double seconds) {
   return std::to_string(static_cast<long>(std::lround(1e3 * seconds))) + " ms";
 }
 
@@ -107,6 +110,17 @@ class Optimizer::Impl {
           report_(*report) {}
 
     void run() {
+      try {
+        iterateToTheEnd();
+      } catch (...) {
+        goBack();
+        report_.cost_after = cost_;
+        throw;
+      }
+    }
+
+   private:
+    void iterateToTheEnd() {
       sweep_ = sweep(0.0);
       cost_ = best_cost_ = sweep_.cost;
       report_.cost_before = report_.cost_after = cost_;
@@ -118,7 +132,7 @@ class Optimizer::Impl {
         if (report_.iterations >= config_.max_iterations) {
           report_.problem = "stopped after " + std::to_string(report_.iterations) + " iterations";
         } else if (config_.max_time_s > 0.0 && elapsed_s() > config_.max_time_s) {
-          report_.problem = "stopped after " + thousandths(elapsed_s());
+          report_.problem = "stopped after " + inMilliseconds(elapsed_s());
         } else {
           iterate();
         }
@@ -128,7 +142,6 @@ class Optimizer::Impl {
       nameFreeDirections();
     }
 
-   private:
     double elapsed_s() const {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }
