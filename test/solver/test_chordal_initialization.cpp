@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-
 #include <memory>
 
 #include "mrpt_sgraphs/factors/plane_observation.h"
