@@ -5,11 +5,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "mrpt_sgraphs/factors/condensed.h"
+#include "mrpt_sgraphs/factors/floor_rooms.h"
 #include "mrpt_sgraphs/factors/prior.h"
 #include "mrpt_sgraphs/factors/relative_pose_quaternion.h"
 #include "mrpt_sgraphs/factors/room_walls.h"
@@ -38,35 +38,6 @@ bool isSound(const Eigen::Vector3d& direction) {
 }
 bool isSound(const Plane& plane) { return isSound(plane.normal) && std::isfinite(plane.distance); }
 
-/// Cost and derivatives can be numbers though the measured rotation or direction is none.
-bool isMeasurementSound(const Factor& factor) {
-  if (const auto* f = dynamic_cast<const PlaneObservationFactor*>(&factor)) {
-    return isSound(f->measured_base);
-  }
-  if (const auto* f = dynamic_cast<const RelativePoseFactor*>(&factor))
-    return isSound(f->T_from_to);
-  if (const auto* f = dynamic_cast<const RelativePoseQuaternionFactor*>(&factor)) {
-    return isSound(f->T_from_to);
-  }
-  if (const auto* f = dynamic_cast<const RoomWallFactor*>(&factor)) return isSound(f->axis_room);
-  if (const auto* f = dynamic_cast<const WallPairFactor*>(&factor)) {
-    return isSound(Plane{f->normal_a_base, f->thickness_m});
-  }
-  if (const auto* f = dynamic_cast<const PosePriorFactor*>(&factor)) return isSound(f->prior_map);
-  if (const auto* f = dynamic_cast<const PlanePriorFactor*>(&factor)) {
-    return isSound(f->T_map_reference) && isSound(f->prior_reference);
-  }
-  if (const auto* f = dynamic_cast<const SummedObservationsFactor*>(&factor)) {
-    return isSound(f->sum.reference_point);
-  }
-  if (const auto* f = dynamic_cast<const CondensedFactor*>(&factor)) {
-    return std::all_of(f->others().begin(), f->others().end(), [](const auto& other) {
-      return std::visit([](const auto& seen) { return isSound(seen); }, other.seen_kept);
-    });
-  }
-  return true;
-}
-
 /// A Hessian of relative measurements is singular, and the pivots of such a matrix tell nothing:
 /// after one that is zero but for rounding, the next may be anything. Shifted it is not.
 bool isPositiveSemidefinite(const Eigen::MatrixXd& H) {
@@ -75,6 +46,59 @@ bool isPositiveSemidefinite(const Eigen::MatrixXd& H) {
   Eigen::MatrixXd shifted = H / largest;
   shifted.diagonal().array() += kMaxNegative;
   return shifted.llt().info() == Eigen::Success;
+}
+
+/// Its own, and not only what is left of it where the nodes are: a robust kernel may weigh it down.
+template <typename AnyFactor>
+void requireInformation(const AnyFactor& factor) {
+  constexpr double kMaxAsymmetry = 1e-6;
+  const Eigen::MatrixXd information = factor.information();
+  require((information - information.transpose()).norm() <= kMaxAsymmetry * information.norm(),
+          factor, "the information is not symmetric, or not finite");
+  require(isPositiveSemidefinite(information), factor,
+          "the information is not positive semidefinite");
+}
+
+/// @return Whether it is such a factor.
+template <typename AnyFactor, typename IsMeasured>
+bool checkedAs(const Factor& factor, const IsMeasured& is_measured) {
+  const auto* const of_this_type = dynamic_cast<const AnyFactor*>(&factor);
+  if (of_this_type == nullptr) return false;
+  require(is_measured(*of_this_type), factor, "the measurement is no pose or plane");
+  requireInformation(*of_this_type);
+  return true;
+}
+
+/// Cost and derivatives can be numbers though a measured rotation or direction is none.
+void requireSoundParts(const Factor& factor) {
+  using Quaternion = RelativePoseQuaternionFactor;
+  const auto always = [](const auto&) { return true; };
+  if (checkedAs<PlaneObservationFactor>(factor,
+                                        [](const auto& f) { return isSound(f.measured_base); }) ||
+      checkedAs<RelativePoseFactor>(factor, [](const auto& f) { return isSound(f.T_from_to); }) ||
+      checkedAs<Quaternion>(factor, [](const auto& f) { return isSound(f.T_from_to); }) ||
+      checkedAs<RoomWallFactor>(factor, [](const auto& f) { return isSound(f.axis_room); }) ||
+      checkedAs<RoomCentreFactor>(factor, always) || checkedAs<FloorRoomFactor>(factor, always) ||
+      checkedAs<WallPairFactor>(factor,
+                                [](const auto& f) {
+                                  return isSound(Plane{f.normal_a_base, f.thickness_m});
+                                }) ||
+      checkedAs<PosePriorFactor>(factor, [](const auto& f) { return isSound(f.prior_map); }) ||
+      checkedAs<PlanePriorFactor>(factor, [](const auto& f) {
+        return isSound(f.T_map_reference) && isSound(f.prior_reference);
+      })) {
+    return;
+  }
+  bool measured = true;
+  if (const auto* sum = dynamic_cast<const SummedObservationsFactor*>(&factor)) {
+    measured = isSound(sum->sum.reference_point);
+  } else if (const auto* condensed = dynamic_cast<const CondensedFactor*>(&factor)) {
+    for (const CondensedFactor::Other& other : condensed->others()) {
+      measured =
+          measured && std::visit([](const auto& seen) { return isSound(seen); }, other.seen_kept);
+    }
+  }
+  require(measured, factor, "the measurement is no pose or plane");
 }
 
 }  // namespace
@@ -94,14 +118,7 @@ void requireSound(const Factor& factor, const VariableView* values) {
       require(factor.node(a) != factor.node(b), factor, "a node is there twice");
     }
   }
-  if (const auto* relative = dynamic_cast<const RelativePoseFactor*>(&factor)) {
-    const Matrix6& information = relative->information();
-    constexpr double kMaxAsymmetry = 1e-6;
-    require((information - information.transpose()).norm() <= kMaxAsymmetry * information.norm(),
-            factor, "the information is not symmetric, or not finite");
-  }
-
-  require(isMeasurementSound(factor), factor, "the measurement is no pose or plane");
+  requireSoundParts(factor);
 
   const int rows = factor.tangentRows();
   Eigen::MatrixXd H(rows, rows);

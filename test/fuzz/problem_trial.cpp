@@ -32,11 +32,16 @@ void checkValues(const Problem& before, const Problem& after) {
     require(!before.isFixed(v), name + " is fixed and has moved");
     if (isPlane(after.node(v).layer)) {
       require(std::isfinite(after.plane(v).distance), name + " is not finite");
-      require(std::abs(after.plane(v).normal.norm() - 1.0) < kRounding, name + " has no direction");
+      const auto isUnit = [&](const Plane& plane) {
+        return std::abs(plane.normal.norm() - 1.0) < kRounding;
+      };
+      require(isUnit(after.plane(v)) || !isUnit(before.plane(v)), name + " has no direction");
     } else {
-      const Eigen::Matrix3d R = after.pose(v).linear();
+      const auto isRotation = [&](const Eigen::Matrix3d& R) {
+        return (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < kRounding;
+      };
       require(after.pose(v).matrix().allFinite(), name + " is not finite");
-      require((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < kRounding,
+      require(isRotation(after.pose(v).linear()) || !isRotation(before.pose(v).linear()),
               name + " is no rotation");
     }
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "mrpt_sgraphs/factors/plane_observation.h"
@@ -102,6 +103,24 @@ TEST_F(ChordalInitializationTest, WeightsThatOverflowChangeNothing) {
   const Problem::Values before = problem_.values();
   EXPECT_EQ(initializeChordal(&problem_), 0);
   EXPECT_EQ(problem_.pose(2).matrix(), before.poses[2].matrix());
+}
+
+TEST(ChordalInitialization, PlanesDoNotFollowAMeasurementThatIsNone) {
+  const Matrix6 information = Matrix6::Identity();
+  const RelativePoseFactor edge(KeyframeId{0}, KeyframeId{1}, Pose::Identity(), information);
+  for (const Plane& none :
+       {Plane{{0.2, 0.0, 1e-300}, 0.0}, Plane{{1.0, 0.0, 0.0}, std::nan("")}}) {
+    const PlaneObservationFactor seen(KeyframeId{0}, WallId{0}, none, Eigen::Matrix3d::Identity());
+    Problem problem;
+    const int poses[] = {problem.addVariable(KeyframeId{0}, Pose::Identity(), true),
+                         problem.addVariable(KeyframeId{1}, Pose::Identity())};
+    const int ends[] = {poses[0], problem.addVariable(WallId{0}, Plane{})};
+    problem.addFactor(edge, poses);
+    problem.addFactor(seen, ends);
+    EXPECT_EQ(initializeChordal(&problem), 1);
+    EXPECT_EQ(problem.plane(ends[1]).normal, Plane{}.normal);
+    EXPECT_EQ(problem.plane(ends[1]).distance, 0.0);
+  }
 }
 
 }  // namespace
