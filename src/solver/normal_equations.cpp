@@ -8,6 +8,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <exception>
+#include <system_error>
 #include <thread>
 
 #include "mrpt_sgraphs/geometry/cpu_time.h"
@@ -61,6 +63,7 @@ struct NormalEquations::Worker {
   EliminationScratch scratch;
   std::vector<int> held;
   bool indefinite = false;
+  std::exception_ptr error;  ///< What ended its work.
   double cpu_ms = 0.0;
   double sampled_s = 0.0;            ///< In some of the fronts, since clocks cost time as well:
   double sampled_linearize_s = 0.0;  ///< ... altogether and for linearizing alone.
@@ -224,17 +227,29 @@ NormalEquations::Sweep NormalEquations::factorize(double damping, int threads) {
   std::atomic<std::size_t> next{0};
   const auto work = [&](Worker* worker) {
     const double start_ms = threadCpuMilliseconds();
-    for (std::size_t s = next++; s < plan_.subtrees.size(); s = next++) {
-      for (int f = plan_.subtrees[s].first; f < plan_.subtrees[s].last; ++f) {
-        processFront(f, damping, worker);
+    try {
+      for (std::size_t s = next++; s < plan_.subtrees.size(); s = next++) {
+        for (int f = plan_.subtrees[s].first; f < plan_.subtrees[s].last; ++f) {
+          processFront(f, damping, worker);
+        }
       }
+    } catch (...) {  // for want of memory; it may not leave the thread
+      worker->error = std::current_exception();
     }
     worker->cpu_ms = threadCpuMilliseconds() - start_ms;
   };
   std::vector<std::thread> others;
-  for (std::size_t t = 1; t < count; ++t) others.emplace_back(work, &workers[t]);
+  others.reserve(count);
+  try {
+    for (std::size_t t = 1; t < count; ++t) others.emplace_back(work, &workers[t]);
+  } catch (const std::system_error&) {
+    // no more threads to be had: those that are there do the work
+  }
   work(&workers[0]);
   for (std::thread& other : others) other.join();
+  for (const Worker& worker : workers) {
+    if (worker.error) std::rethrow_exception(worker.error);
+  }
   CpuStopwatch top;
   for (const int f : plan_.top) processFront(f, damping, &workers[0]);
   workers[0].cpu_ms += top.lap();

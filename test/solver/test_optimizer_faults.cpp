@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <new>
 
 #include "mrpt_sgraphs/solver/optimizer.h"
 #include "support/small_problem.h"
@@ -28,6 +29,39 @@ bool allFinite(const Problem& problem) {
 std::unique_ptr<RelativePoseFactor> edge(uint64_t from, uint64_t to, const Matrix6& information) {
   return std::make_unique<RelativePoseFactor>(KeyframeId{from}, KeyframeId{to}, Pose::Identity(),
                                               information);
+}
+
+/// Ties two keyframes to each other until there is no memory.
+class ExhaustedFactor final : public Factor {
+ public:
+  ExhaustedFactor(KeyframeId from, KeyframeId to) : nodes_{from, to} {}
+  const char* type() const override { return "exhausted"; }
+  int nodeCount() const override { return 2; }
+  NodeId node(int index) const override { return nodes_[index]; }
+  double cost(const VariableView*) const override { throw std::bad_alloc(); }
+  double linearize(const VariableView*, double*, double*) const override { throw std::bad_alloc(); }
+
+ private:
+  NodeId nodes_[2];
+};
+
+TEST(OptimizerFaults, WantOfMemoryIsReportedFromEachThread) {
+  for (const int threads : {1, 2}) {
+    for (const int at : {1, 1000, 2900}) {  // one of them in a subtree of the other thread
+      SmallWorld world(3000);
+      world.add(std::make_unique<ExhaustedFactor>(KeyframeId{static_cast<uint64_t>(at)},
+                                                  KeyframeId{static_cast<uint64_t>(at) + 1}),
+                {at, at + 1});
+      Problem problem = world.problem();
+      const Problem before = problem;
+      OptimizerConfig config;
+      config.threads = threads;
+      const OptimizerReport report = Optimizer().optimize(config, &problem);
+      EXPECT_FALSE(report.converged);
+      EXPECT_EQ(report.problem, std::bad_alloc().what());
+      for (int v = 0; v < 3000; ++v) ASSERT_EQ(problem.pose(v).matrix(), before.pose(v).matrix());
+    }
+  }
 }
 
 TEST(OptimizerFaults, AnEmptyProblemAndASingleNodeHaveNothingToDo) {
