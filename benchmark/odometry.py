@@ -22,6 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 import scans
+from tables import print_columns
 
 HERE = Path(__file__).resolve().parent
 METHODS = ["ours", "kiss_icp", "small_gicp_vgicp"]
@@ -121,11 +122,7 @@ def measure(method, bags, scans_path, scan_stamps, offline, out):
 
 
 def print_table(rows):
-    texts = [COLUMNS] + [[str(row[column]) for column in COLUMNS] for row in rows]
-    widths = [max(len(text[k]) for text in texts) for k in range(len(COLUMNS))]
-    for text in texts:
-        words = [t.ljust(w) if k < 2 else t.rjust(w) for k, (t, w) in enumerate(zip(text, widths))]
-        print("  ".join(words))
+    print_columns(COLUMNS, rows)
     print(
         "\nate_m: each pose compared with the truth at the time that it is of: ours at the scan's\n"
         "stamp, KISS-ICP's at the end of the sweep, to which it deskews, VGICP's in the middle.\n"

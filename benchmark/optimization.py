@@ -26,6 +26,7 @@ from pathlib import Path
 
 import optimization_methods
 import optimization_scores
+from tables import print_columns
 
 HERE = Path(__file__).resolve().parent
 COLUMNS = ["graph", "method", "cpu_s", "cpu_of_ours", "chi2", "chi2_over_best", "iterations",
@@ -107,11 +108,7 @@ def measured(graph, methods, arguments, folder):
 
 
 def print_table(rows):
-    texts = [COLUMNS] + [[str(row[column]) for column in COLUMNS] for row in rows]
-    widths = [max(len(text[k]) for text in texts) for k in range(len(COLUMNS))]
-    for text in texts:
-        words = [t.ljust(w) if k < 2 else t.rjust(w) for k, (t, w) in enumerate(zip(text, widths))]
-        print("  ".join(words))
+    print_columns(COLUMNS, rows)
     print("\ncpu_of_ours: our median over the method's. chi2_over_best: relative to the least of the\n"
           "graph. peak_mib: of the whole process, with what its language needs.")
 

@@ -33,6 +33,14 @@ struct FrontView {
     const int behind_pivots = pivots + padded(rows + 1);
     return behind_pivots > padded(pivots + rows + 1) ? behind_pivots : padded(pivots + rows + 1);
   }
+  /// Of the panel or the update, whichever has the column; [row] is the front's row, from it on.
+  double* column(int column) const {
+    return column < pivots
+               ? panel + static_cast<std::ptrdiff_t>(column) * panelStride()
+               : update + static_cast<std::ptrdiff_t>(column - pivots) * updateStride() - pivots;
+  }
+  int strideAt(int column) const { return column < pivots ? panelStride() : updateStride(); }
+
   static std::size_t panelSize(int pivots, int rows);
   static std::size_t updateSize(int rows) {
     return static_cast<std::size_t>(padded(rows)) * static_cast<std::size_t>(padded(rows + 1));

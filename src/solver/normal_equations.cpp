@@ -57,7 +57,6 @@ constexpr Adder kTransposedAdders[2][2] = {{addTransposed<3, 3>, addTransposed<3
 struct NormalEquations::Worker {
   std::vector<double> hessian;
   std::vector<double> gradient;
-  std::vector<VariableView> views;
   std::vector<double> min_pivots;
   std::vector<LostPivot> lost;
   EliminationScratch scratch;
@@ -81,28 +80,21 @@ FrontView NormalEquations::viewOf(const Front& front) {
 void NormalEquations::assemble(int index, const FrontView& view, double* pivot_diagonal,
                                double* row_diagonal, Worker* worker) {
   const int p = view.pivots;
-  const int panel_ld = view.panelStride();
-  const int update_ld = view.updateStride();
-  const auto columnOf = [&](int column) {  // so that [row] is the entry
-    return column < p ? view.panel + static_cast<std::ptrdiff_t>(column) * panel_ld
-                      : view.update + static_cast<std::ptrdiff_t>(column - p) * update_ld - p;
-  };
   double cost = 0.0;
   double* const H = worker->hessian.data();
   double* const g = worker->gradient.data();
   for (int k = first_factor_[index]; k < first_factor_[index + 1]; ++k) {
     const BoundFactor& bound = factors_[k];
     const End* const ends = ends_.data() + bound.first_end;
-    for (int n = 0; n < bound.ends; ++n) worker->views[n] = ends[n].view;
-    cost += bound.factor->linearize(worker->views.data(), H, g);
+    cost += bound.factor->linearize(views_.data() + bound.first_end, H, g);
 
     int column = 0;  // in the factor's own H
     for (int a = 0; a < bound.ends; column += ends[a].size, ++a) {
       if (ends[a].offset < 0) continue;
       double* const diagonal =
           ends[a].offset < p ? pivot_diagonal + ends[a].offset : row_diagonal + ends[a].offset - p;
-      double* const target = columnOf(ends[a].offset);
-      const int ld = ends[a].offset < p ? panel_ld : update_ld;
+      double* const target = view.column(ends[a].offset);
+      const int ld = view.strideAt(ends[a].offset);
       for (int i = 0; i < ends[a].size; ++i) {
         diagonal[i] += H[(column + i) * (bound.tangents + 1)];
         target[i * ld + p + view.rows] -= g[column + i];
@@ -115,10 +107,9 @@ void NormalEquations::assemble(int index, const FrontView& view, double* pivot_d
           kAdders[ends[b].size / 6][ends[a].size / 6](block, bound.tangents,
                                                       target + ends[b].offset, ld);
         } else {
-          const bool in_panel = ends[b].offset < p;
           kTransposedAdders[ends[a].size / 6][ends[b].size / 6](
-              block, bound.tangents, columnOf(ends[b].offset) + ends[a].offset,
-              in_panel ? panel_ld : update_ld);
+              block, bound.tangents, view.column(ends[b].offset) + ends[a].offset,
+              view.strideAt(ends[b].offset));
         }
       }
     }
@@ -137,9 +128,7 @@ void NormalEquations::extendAdd(const Front& child, const Front& parent, const F
     for (int i = 0; i < runs[a].size; ++i) {
       const int column = runs[a].parent_row + i;
       const double* source = update + static_cast<std::ptrdiff_t>(runs[a].child_row + i) * child_ld;
-      double* const target =
-          column < p ? view.panel + static_cast<std::ptrdiff_t>(column) * view.panelStride()
-                     : view.update + static_cast<std::ptrdiff_t>(column - p) * view.updateStride() - p;
+      double* const target = view.column(column);
       for (int r = i; r < runs[a].size; ++r) {
         target[runs[a].parent_row + r] += source[runs[a].child_row + r];
       }
@@ -222,7 +211,6 @@ NormalEquations::Sweep NormalEquations::factorize(double damping, int threads) {
     worker.hessian.resize(static_cast<std::size_t>(max_tangents_) *
                           static_cast<std::size_t>(max_tangents_));
     worker.gradient.resize(static_cast<std::size_t>(max_tangents_));
-    worker.views.resize(static_cast<std::size_t>(max_tangents_ / 3 + 1));
   }
   std::atomic<std::size_t> next{0};
   const auto work = [&](Worker* worker) {
@@ -268,12 +256,7 @@ NormalEquations::Sweep NormalEquations::factorize(double damping, int threads) {
   for (const double cost : front_cost_) sweep.cost += cost;
   for (const double decrease : front_decrease_) sweep.decrease += decrease;
   // factors between fixed variables count, though nothing can be done about them
-  Worker& worker = workers[0];
-  for (std::size_t k = static_cast<std::size_t>(first_factor_[plan_.fronts.size()]); k < factors_.size(); ++k) {
-    const BoundFactor& bound = factors_[k];
-    for (int n = 0; n < bound.ends; ++n) worker.views[n] = ends_[bound.first_end + n].view;
-    sweep.cost += bound.factor->cost(worker.views.data());
-  }
+  sweep.cost += costFrom(first_factor_[plan_.fronts.size()]);
   return sweep;
 }
 
@@ -317,12 +300,10 @@ void NormalEquations::retract(const std::vector<double>& step, Problem* problem)
   }
 }
 
-double NormalEquations::cost() const {
-  std::vector<VariableView> views(static_cast<std::size_t>(max_tangents_ / 3 + 1));
+double NormalEquations::costFrom(int first_factor) const {
   double sum = 0.0;
-  for (const BoundFactor& bound : factors_) {
-    for (int n = 0; n < bound.ends; ++n) views[n] = ends_[bound.first_end + n].view;
-    sum += bound.factor->cost(views.data());
+  for (std::size_t k = static_cast<std::size_t>(first_factor); k < factors_.size(); ++k) {
+    sum += factors_[k].factor->cost(views_.data() + factors_[k].first_end);
   }
   return sum;
 }

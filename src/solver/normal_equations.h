@@ -54,7 +54,7 @@ class NormalEquations {
   void retract(const std::vector<double>& step, Problem* problem) const;
 
   /// The cost at the problem's values, without any derivative.
-  double cost() const;
+  double cost() const { return costFrom(0); }
 
   int tangents() const { return plan_.tangent.back(); }
   /// What damping is relative to, in elimination order: the diagonal of H as of the last sweep, the
@@ -66,7 +66,6 @@ class NormalEquations {
 
  private:
   struct End {
-    VariableView view;
     int offset = 0;  ///< Row in its front; -1: fixed.
     int size = 0;
   };
@@ -79,6 +78,7 @@ class NormalEquations {
   struct Worker;
 
   void assignFactors(const Problem& problem);
+  double costFrom(int first_factor) const;
   void processFront(int index, double damping, Worker* worker);
   void assemble(int index, const FrontView& view, double* pivot_diagonal, double* row_diagonal,
                 Worker* worker);
@@ -97,6 +97,7 @@ class NormalEquations {
   std::vector<int> first_factor_;         ///< Of each front, and behind the last.
   std::vector<BoundFactor> factors_;      ///< In that order.
   std::vector<End> ends_;
+  std::vector<VariableView> views_;  ///< Of each end, in the problem that this is bound to.
   int max_tangents_ = 0;
   std::unique_ptr<double[]> panels_;
   std::unique_ptr<double[]> updates_;

@@ -78,16 +78,12 @@ NormalEquations::NormalEquations(const Problem& problem) : structure_(structureO
     free_variables_.push_back(v);
   }
   plan_ = planElimination(variableGraph(problem, number, free_variables_));
-
-  std::vector<int> position(number.size(), -1);  // of the problem's variables in the order
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] >= 0) position[v] = plan_.position[number[v]];
-  }
   std::vector<int> ordered(free_variables_.size());
   for (std::size_t k = 0; k < ordered.size(); ++k) ordered[k] = free_variables_[plan_.order[k]];
   free_variables_ = std::move(ordered);
 
   assignFactors(problem);
+  views_.resize(ends_.size());
   panels_.reset(new double[plan_.panel_memory]);  // not initialized: each sweep does that
   updates_.reset(new double[plan_.update_memory]);
   scales_.resize(static_cast<std::size_t>(tangents()));
@@ -158,7 +154,7 @@ void NormalEquations::bind(const Problem& problem) {
     const int f = factor_order_[k];
     factors_[k].factor = &problem.factor(f);
     for (int n = 0; n < factors_[k].ends; ++n) {
-      ends_[factors_[k].first_end + n].view = problem.view(problem.variablesOf(f)[n]);
+      views_[factors_[k].first_end + n] = problem.view(problem.variablesOf(f)[n]);
     }
   }
 }

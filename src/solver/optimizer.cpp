@@ -278,8 +278,7 @@ class Optimizer::Impl {
     void nameFreeDirections() {
       if (held_.empty()) return;
       // the factor has to be that of the undamped system, at the values that come out
-      held_ = equations_.factorize(0.0, config_.threads).held;
-      ++report_.factorizations;
+      sweep(0.0);
       for (GaugeFreedom& freedom : freeDirections(equations_, held_, problem_)) {
         report_.gauge.push_back(std::move(freedom));
       }
