@@ -55,7 +55,11 @@ void addKeyframe(const JsonPlace& place, LayeredGraph* graph) {
 
 void addWall(const JsonPlace& place, LayeredGraph* graph) {
   WallAttributes attributes;
-  attributes.polygon_map = polygon(place["polygon"]);
+  attributes.extent_map.outline = polygon(place["polygon"]);
+  const JsonPlace holes = place["holes"];
+  for (std::size_t k = 0; k < holes.size(); ++k) {
+    attributes.extent_map.holes.push_back(polygon(holes[k]));
+  }
   graph->restoreWall(WallId{place["id"].id()}, place["plane"].plane(), attributes);
 }
 

@@ -29,6 +29,12 @@ Json polygon(const std::vector<Eigen::Vector3d>& corners_map) {
   return list;
 }
 
+Json holes(const PlanarExtent& extent) {
+  Json list = Json::array();
+  for (const Outline3& hole : extent.holes) list.push_back(polygon(hole));
+  return list;
+}
+
 Json nodeJson(const KeyframeNode& keyframe) {
   return {{"id", keyframe.id.value},
           {"stamp", keyframe.stamp_s},
@@ -43,7 +49,8 @@ Json nodeJson(const KeyframeNode& keyframe) {
 Json nodeJson(const WallNode& wall) {
   return {{"id", wall.id.value},
           {"plane", toJson(wall.plane_map)},
-          {"polygon", polygon(wall.polygon_map)}};
+          {"polygon", polygon(wall.extent_map.outline)},
+          {"holes", holes(wall.extent_map)}};
 }
 
 Json nodeJson(const RoomNode& room, const std::vector<KeyframeId>& keyframes) {

@@ -13,6 +13,7 @@ Pipeline::Pipeline(const SlamConfig& config)
       prefilter_(config.prefilter),
       odometry_(config.odometry),
       keyframes_(config.keyframes),
+      gatherer_(static_cast<std::size_t>(config.plane_segmentation.gathered_points)),
       graph_slam_(config.loop_closure, config.solver) {}
 
 std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
@@ -36,9 +37,19 @@ std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
   trajectory_.add(odometry->stamp_s, odometry->T_odom_base);
   watch.lap();
 
-  const auto keyframe = keyframes_.process(
+  if (odometry->registered) {
+    gatherer_.add(odometry->deskewed, odometry->T_odom_base);
+  } else {
+    gatherer_.reset();  // poses before and after it do not fit together
+  }
+  auto keyframe = keyframes_.process(
       {odometry->stamp_s, odometry->T_odom_base, odometry->covariance}, *odometry->deskewed);
   if (keyframe) {
+    if (odometry->registered) {
+      keyframe->planes =
+          observedPlanes(segmentPlanes(gatherer_.take(), config_.plane_segmentation));
+    }
+    report.segment_ms = watch.lap();
     const KeyframeOutcome outcome = graph_slam_.addKeyframe(*keyframe);
     if (outcome.optimization) optimizations_.push_back(*outcome.optimization);
     report.keyframe = true;

@@ -52,7 +52,10 @@ class GraphJsonTest : public ::testing::Test {
     graph_.restoreFloor(floor, random_.pose() * Plane{}, {random_.vector(50.0), "ground \"0\" ü"});
     for (const uint64_t id : {4U, 2U, 9U}) {
       WallAttributes attributes;
-      attributes.polygon_map = {random_.vector(50.0), random_.vector(50.0), random_.vector(50.0)};
+      const auto triangle = [this] {
+        return Outline3{random_.vector(50.0), random_.vector(50.0), random_.vector(50.0)};
+      };
+      attributes.extent_map = {triangle(), {triangle(), triangle()}};
       graph_.restoreWall(WallId{id}, test::randomPlane(&random_, 50.0), attributes);
     }
     RoomAttributes room;
@@ -183,7 +186,9 @@ TEST_F(GraphJsonTest, NodesKeepWhatIsKnownOfThem) {
   EXPECT_EQ(again.attributes(RoomId{7}).walls, graph_.attributes(RoomId{7}).walls);
   EXPECT_EQ(again.attributes(RoomId{7}).size_m, graph_.attributes(RoomId{7}).size_m);
   EXPECT_EQ(again.attributes(FloorId{3}).name, "ground \"0\" ü");
-  EXPECT_EQ(again.attributes(WallId{9}).polygon_map, graph_.attributes(WallId{9}).polygon_map);
+  const auto& extent = graph_.attributes(WallId{9}).extent_map;
+  EXPECT_EQ(again.attributes(WallId{9}).extent_map.outline, extent.outline);
+  EXPECT_EQ(again.attributes(WallId{9}).extent_map.holes, extent.holes);
   const Json document = Json::parse(written(graph_));
   EXPECT_EQ(document["rooms"][0]["keyframes"], Json({0, 1}));
 }

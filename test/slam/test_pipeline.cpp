@@ -62,7 +62,7 @@ TEST_F(PipelineInABuilding, RecordsEveryScan) {
     EXPECT_EQ(report.stamp_s, record_->trajectory[k].stamp_s);
     EXPECT_TRUE(report.registered) << k;
     for (const double time_ms : {report.prefilter_ms, report.deskew_ms, report.register_ms,
-                                 report.map_ms, report.keyframe_ms}) {
+                                 report.map_ms, report.segment_ms, report.keyframe_ms}) {
       EXPECT_GE(time_ms, 0.0);
     }
     keyframes += report.keyframe ? 1 : 0;

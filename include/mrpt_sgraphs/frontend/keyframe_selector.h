@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "mrpt_sgraphs/geometry/observed_plane.h"
 #include "mrpt_sgraphs/geometry/point_cloud.h"
 #include "mrpt_sgraphs/geometry/pose.h"
 
@@ -48,6 +49,7 @@ struct Keyframe {
   Pose T_odom_base = Pose::Identity();
   Matrix6 covariance = Matrix6::Identity();  ///< Of the motion since the last keyframe.
   Cloud::ConstPtr cloud;                     ///< Deskewed and thinned out, base frame.
+  ObservedPlanesConstPtr planes;             ///< Not the selector's to fill in; may be null.
 };
 
 /// Picks the keyframes among the scans and adds up the uncertainty of the way between them.

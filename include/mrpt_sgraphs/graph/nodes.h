@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mrpt_sgraphs/geometry/ids.h"
+#include "mrpt_sgraphs/geometry/observed_plane.h"
 #include "mrpt_sgraphs/geometry/plane.h"
 #include "mrpt_sgraphs/geometry/point_cloud.h"
 #include "mrpt_sgraphs/geometry/pose.h"
@@ -20,6 +21,7 @@ struct KeyframeAttributes {
   double stamp_s = 0.0;
   Pose T_odom_base = Pose::Identity();  ///< What odometry alone said.
   Cloud::ConstPtr cloud;                ///< Base frame.
+  ObservedPlanesConstPtr planes;        ///< What was flat in it; may be null.
   std::optional<FloorId> floor;
   std::optional<RoomId> room;
   bool marginalized = false;                 ///< Dropped from the optimization.
@@ -33,7 +35,7 @@ struct KeyframeNode : KeyframeAttributes {
 
 /// A surface seen from one side.
 struct WallAttributes {
-  std::vector<Eigen::Vector3d> polygon_map;  ///< Its extent [m].
+  PlanarExtent extent_map;  ///< How far it was seen.
 };
 
 struct WallNode : WallAttributes {

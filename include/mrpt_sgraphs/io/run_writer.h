@@ -19,6 +19,7 @@ struct ScanReport {
   double deskew_ms = 0.0;
   double register_ms = 0.0;
   double map_ms = 0.0;
+  double segment_ms = 0.0;   ///< the planes of a keyframe
   double keyframe_ms = 0.0;  ///< selection, thinning, and the back end's work for it
   bool registered = false;
   bool keyframe = false;

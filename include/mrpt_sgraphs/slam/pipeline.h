@@ -9,6 +9,7 @@
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
 #include "mrpt_sgraphs/frontend/odometry.h"
 #include "mrpt_sgraphs/frontend/prefilter.h"
+#include "mrpt_sgraphs/frontend/scan_gatherer.h"
 #include "mrpt_sgraphs/io/run_writer.h"
 #include "mrpt_sgraphs/slam/graph_slam.h"
 #include "mrpt_sgraphs/slam/scan_trajectory.h"
@@ -42,6 +43,7 @@ class Pipeline {
   Prefilter prefilter_;
   Odometry odometry_;
   KeyframeSelector keyframes_;
+  ScanGatherer gatherer_;
   GraphSlam graph_slam_;
   ScanTrajectory trajectory_;
   std::vector<OptimizationSummary> optimizations_;

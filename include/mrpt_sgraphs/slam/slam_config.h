@@ -4,6 +4,7 @@
 
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
 #include "mrpt_sgraphs/frontend/odometry.h"
+#include "mrpt_sgraphs/frontend/plane_segmentation.h"
 #include "mrpt_sgraphs/frontend/prefilter.h"
 #include "mrpt_sgraphs/semantics/loop_closer.h"
 #include "mrpt_sgraphs/slam/solver_config.h"
@@ -16,6 +17,7 @@ struct SlamConfig {
   PrefilterConfig prefilter;
   OdometryConfig odometry;
   KeyframeConfig keyframes;
+  PlaneSegmentationConfig plane_segmentation;
   LoopCloserConfig loop_closure;
   SolverConfig solver;
 
@@ -25,6 +27,7 @@ struct SlamConfig {
     section("prefilter", self.prefilter);
     section("odometry", self.odometry);
     section("keyframes", self.keyframes);
+    section("plane_segmentation", self.plane_segmentation);
     section("loop_closure", self.loop_closure);
     section("solver", self.solver);
   }
