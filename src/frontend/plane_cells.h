@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mrpt_sgraphs/geometry/point_cloud.h"
+#include "mrpt_sgraphs/geometry/scatter.h"
+
+namespace mrpt_sgraphs {
+
+/// Points sorted into small cells of space, and these into coarser ones, each cell with the scatter
+/// of its points: whether a plane takes a cell is then asked of a few numbers and not of its points.
+class PlaneCells {
+ public:
+  static constexpr int kLevels = 4;  ///< Each with cells twice as large as the one below.
+  static constexpr int kCoarsest = kLevels - 1;
+
+  PlaneCells(const Cloud& cloud, double finest_m);
+
+  std::size_t size(int level) const { return levels_[static_cast<std::size_t>(level)].size(); }
+  const Scatter& scatter(int level, int cell) const {
+    return levels_[static_cast<std::size_t>(level)][static_cast<std::size_t>(cell)];
+  }
+
+  /// The finest cell of a point of the cloud.
+  int cellOf(std::size_t point) const { return cell_of_point_[point]; }
+  int parentOf(int level, int cell) const {
+    return parents_[static_cast<std::size_t>(level)][static_cast<std::size_t>(cell)];
+  }
+
+  /// The finest cells within a cell of a level are a run of this list.
+  struct Run {
+    const int* first;
+    const int* last;
+    const int* begin() const { return first; }
+    const int* end() const { return last; }
+  };
+  Run finestIn(int level, int cell) const;
+
+  /// The cells next to a cell of the neighbour level, corners too.
+  static constexpr int kNeighbourLevel = 2;
+  const std::vector<int>& neighbours(int cell) const {
+    return neighbours_[static_cast<std::size_t>(cell)];
+  }
+
+ private:
+  using Key = std::uint64_t;
+
+  void sortIntoFinest(const Cloud& cloud, double finest_m);
+  void joinIntoCoarser();
+  void findNeighbours();
+
+  std::vector<int> cell_of_point_;
+  std::vector<Key> keys_;                           ///< Of the finest cells.
+  std::array<std::vector<Scatter>, kLevels> levels_;
+  std::array<std::vector<int>, kLevels - 1> parents_;
+  std::array<std::vector<int>, kLevels> run_begins_;  ///< Of each cell, and the end of the last.
+  std::array<std::vector<int>, kLevels> runs_;
+  std::vector<Key> neighbour_level_keys_;
+  std::vector<std::vector<int>> neighbours_;
+};
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "plane_growing.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace mrpt_sgraphs {
+namespace {
+
+constexpr int kUnclaimed = -1;
+/// Cells of surfaces that are bent: nothing grows from them again.
+constexpr int kBent = -2;
+
+constexpr double kMinSeedPoints = 6.0;
+/// A seed's normal has to be known so well [rad], or it grows into anything.
+constexpr double kMaxSeedNormalSigma = 0.08;
+/// Points are taken to lie about their plane by this at least: what a few say is no measure.
+constexpr double kMinSigma_m = 0.01;
+/// Scans that were gathered and sweeps that were straightened fit together no better [m].
+constexpr double kMisfit_m = 0.006;
+constexpr double kGateSigmas = 3.0;
+/// Where a plane is still small it is believed less far away from it: its noise is not independent.
+constexpr double kExtrapolation = 2.0;
+constexpr double kMaxGate_m = 0.08;
+constexpr double kRefitGrowth = 1.4;
+
+/// How much is known across the second direction of a scatter, as the normal's sigma [rad].
+double normalSigma(const FittedPlane& fit, double count, double sigma_m) {
+  return sigma_m / std::sqrt(count * std::max(fit.variance_m2.y(), 1e-12));
+}
+
+class Growth {
+ public:
+  Growth(const PlaneCells& cells, double max_thickness_m, int min_points)
+      : cells_(cells),
+        max_thickness_m_(max_thickness_m),
+        min_points_(min_points),
+        claims_(cells.size(0), kUnclaimed),
+        seen_by_(cells.size(PlaneCells::kNeighbourLevel), 0) {}
+
+  std::vector<PlaneRegion> run() {
+    for (int level = 1; level <= PlaneCells::kCoarsest; ++level) growFromLevel(level);
+    return std::move(regions_);
+  }
+
+ private:
+  struct Seed {
+    int cell;
+    double normal_sigma;
+  };
+
+  void growFromLevel(int level) {
+    std::vector<Seed> seeds;
+    for (int cell = 0; cell < static_cast<int>(cells_.size(level)); ++cell) {
+      const auto sigma = seedQuality(scatterLeft(level, cell));
+      if (sigma < kMaxSeedNormalSigma) seeds.push_back({cell, sigma});
+    }
+    std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) {
+      return a.normal_sigma != b.normal_sigma ? a.normal_sigma < b.normal_sigma : a.cell < b.cell;
+    });
+    for (const Seed& seed : seeds) {
+      const Scatter left = scatterLeft(level, seed.cell);
+      if (left.count() < 0.7 * cells_.scatter(level, seed.cell).count()) continue;
+      if (seedQuality(left) >= kMaxSeedNormalSigma) continue;
+      grow(level, seed.cell, left);
+    }
+  }
+
+  /// Of what no region has taken yet.
+  Scatter scatterLeft(int level, int cell) const {
+    Scatter left;
+    for (const int finest : cells_.finestIn(level, cell)) {
+      if (claims_[static_cast<std::size_t>(finest)] == kUnclaimed) left += cells_.scatter(0, finest);
+    }
+    return left;
+  }
+
+  /// The sigma of its normal [rad]; infinite if it is no plane.
+  double seedQuality(const Scatter& scatter) const {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    if (scatter.count() < kMinSeedPoints) return kNone;
+    const FittedPlane fit = fitPlane(scatter);
+    const double thickness2 = fit.variance_m2.x();
+    if (thickness2 > max_thickness_m_ * max_thickness_m_) return kNone;
+    constexpr double kFlatness = 16.0;  // a plane spreads over more than it is thick, both ways
+    if (fit.variance_m2.y() < kFlatness * thickness2) return kNone;
+    return normalSigma(fit, scatter.count(), std::max(kMinSigma_m, std::sqrt(thickness2)));
+  }
+
+  void grow(int level, int seed, const Scatter& seed_scatter) {
+    total_ = seed_scatter;
+    fit_ = fitPlane(total_);
+    constexpr int kPasses = 2;  // the first finds the plane, the second its cells
+    for (int pass = 0; pass < kPasses; ++pass) {
+      spread(level, seed, pass == 0);
+      if (total_.count() < min_points_) break;
+      fit_ = fitPlane(total_);
+    }
+    const bool thin = fit_.variance_m2.x() <= max_thickness_m_ * max_thickness_m_;
+    if (total_.count() < min_points_ || !thin) return;
+    const double sigma_m = std::sqrt(fit_.variance_m2.x());
+    const int claim = isBent(sigma_m) ? kBent : static_cast<int>(regions_.size());
+    for (const int cell : taken_) claims_[static_cast<std::size_t>(cell)] = claim;
+    if (claim != kBent) regions_.push_back({fit_, sigma_m, taken_});
+  }
+
+  /// Takes the cells that fit the plane, from the seed's on outwards.
+  void spread(int level, int seed, bool refit) {
+    ++pass_;
+    taken_.clear();
+    Scatter sum;
+    double fitted_count = total_.count();
+    queue_.clear();
+    for (const int finest : cells_.finestIn(level, seed)) enqueue(neighbourCell(finest));
+    for (std::size_t next = 0; next < queue_.size(); ++next) {
+      const int coarse = queue_[next];
+      bool any = false;
+      for (const int cell : cells_.finestIn(PlaneCells::kNeighbourLevel, coarse)) {
+        if (claims_[static_cast<std::size_t>(cell)] != kUnclaimed || !fits(cell)) continue;
+        taken_.push_back(cell);
+        sum += cells_.scatter(0, cell);
+        any = true;
+      }
+      if (!any) continue;
+      for (const int neighbour : cells_.neighbours(coarse)) enqueue(neighbour);
+      if (refit && sum.count() > kRefitGrowth * fitted_count) {
+        total_ = sum;
+        fitted_count = sum.count();
+        fit_ = fitPlane(sum);
+      }
+    }
+    total_ = sum;
+  }
+
+  int neighbourCell(int finest) const {
+    return cells_.parentOf(1, cells_.parentOf(0, finest));
+  }
+
+  void enqueue(int coarse) {
+    int& seen = seen_by_[static_cast<std::size_t>(coarse)];
+    if (seen == pass_) return;
+    seen = pass_;
+    queue_.push_back(coarse);
+  }
+
+  bool fits(int cell) const {
+    const Scatter& scatter = cells_.scatter(0, cell);
+    const double n = scatter.count();
+    const Eigen::Vector3d mean = scatter.mean();
+    const double offset_m = fit_.distance(mean);
+    if (std::abs(offset_m) > kMaxGate_m) return false;
+    const double sigma2 = std::max(fit_.variance_m2.x(), kMinSigma_m * kMinSigma_m);
+    const Eigen::Vector3d away = fit_.axes.transpose() * (mean - fit_.centroid);
+    const double lever = away.y() * away.y() / std::max(fit_.variance_m2.y(), 1e-9) +
+                         away.z() * away.z() / std::max(fit_.variance_m2.z(), 1e-9);
+    const double plane2 =
+        kExtrapolation * kExtrapolation * sigma2 * (1.0 + lever) / total_.count();
+    const double gate2 = kGateSigmas * kGateSigmas * (sigma2 / n + plane2 + kMisfit_m * kMisfit_m);
+    if (offset_m * offset_m > gate2) return false;
+    if (n < 2.0) return true;
+    const double thickness2 = fit_.plane.normal.dot(scatter.covariance() * fit_.plane.normal);
+    const double spread = 1.0 + 2.0 / std::sqrt(n);
+    return thickness2 < sigma2 * spread * spread;
+  }
+
+  /// Whether the cells' means follow a parabola and no plane: a pillar, a vault.
+  bool isBent(double sigma_m) const;
+
+  const PlaneCells& cells_;
+  const double max_thickness_m_;
+  const double min_points_;
+  std::vector<int> claims_;    ///< By finest cell: the region, or none.
+  std::vector<int> seen_by_;   ///< By cell of the neighbour level: the pass that came by.
+  std::vector<PlaneRegion> regions_;
+
+  int pass_ = 0;
+  FittedPlane fit_;     ///< Of the region that grows,
+  Scatter total_;       ///< ... from these points,
+  std::vector<int> taken_;  ///< ... with these cells so far.
+  std::vector<int> queue_;
+};
+
+bool Growth::isBent(double sigma_m) const {
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  Matrix6 normal = Matrix6::Zero();
+  Vector6 right = Vector6::Zero();
+  double count = 0.0;
+  for (const int cell : taken_) {
+    const Scatter& scatter = cells_.scatter(0, cell);
+    const Eigen::Vector3d p = fit_.axes.transpose() * (scatter.mean() - fit_.centroid);
+    const double u = p.y() / std::sqrt(fit_.variance_m2.y());
+    const double v = p.z() / std::sqrt(fit_.variance_m2.z());
+    Vector6 row;
+    row << 1.0, u, v, u * u, u * v, v * v;
+    normal.noalias() += scatter.count() * row * row.transpose();
+    right.noalias() += scatter.count() * p.x() * row;
+    count += scatter.count();
+  }
+  constexpr double kDamping = 1e-3;  // a region of one row of cells has no curvature across it
+  normal.diagonal().array() += kDamping * count;
+  const Eigen::LDLT<Matrix6> solver(normal);
+  const Vector6 bend = solver.solve(right);
+  const Matrix6 covariance = solver.solve(Matrix6::Identity());
+  constexpr double kSignificance = 6.0;
+  constexpr double kMinBend_m = 0.004;  ///< One sigma away from the middle.
+  const double sigma = std::max(sigma_m, kMinSigma_m);
+  for (const int k : {3, 5}) {
+    const double error_m = sigma * std::sqrt(covariance(k, k));
+    if (std::abs(bend[k]) > std::max(kSignificance * error_m, kMinBend_m)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<PlaneRegion> growPlanes(const PlaneCells& cells, double max_thickness_m,
+                                    int min_points) {
+  return Growth(cells, max_thickness_m, min_points).run();
+}
+
+}  // namespace mrpt_sgraphs
