@@ -3,7 +3,7 @@
 
 #include "plane_cells.h"
 
-#include <cmath>
+#include <limits>
 
 namespace mrpt_sgraphs {
 namespace {
@@ -27,6 +27,14 @@ Index3 indexOf(Key key) {
   return {static_cast<int>(key & kMask) - kOffset,
           static_cast<int>(key >> kBits & kMask) - kOffset,
           static_cast<int>(key >> (2 * kBits) & kMask) - kOffset};
+}
+
+/// The cell of a point that is given in edges; rounding may put it into the next one.
+Index3 indexAt(const Eigen::Vector3f& p) {
+  // to integers by truncation of what is positive: floor() is a call for every coordinate
+  constexpr float kShift = 8192.0F;
+  const Eigen::Vector3f shifted = (p.array() + kShift).max(0.0F).min(2.0F * kShift);
+  return shifted.cast<int>().array() - static_cast<int>(kShift);
 }
 
 Key parentKey(Key key) {
@@ -120,13 +128,24 @@ void PlaneCells::sortIntoFinest(const Cloud& cloud, double finest_m) {
   cell_of_point_.resize(cloud.size());
   const float edge_m = static_cast<float>(finest_m);
   const float inverse_edge = 1.0F / edge_m;
+  // The points of one beam follow each other in space: most lie in the cell of its last one.
+  struct Last {
+    Key key = std::numeric_limits<Key>::max();
+    int cell = 0;
+  };
+  constexpr std::size_t kBeams = 256;
+  std::array<Last, kBeams> last_of_beam;
   for (std::size_t k = 0; k < cloud.size(); ++k) {
     const Eigen::Vector3f p = cloud[k].getVector3fMap();
-    const Eigen::Vector3f corner = (p * inverse_edge).array().floor();
-    const int cell = numbers.numberOf(keyOf(corner.cast<int>()));
-    if (static_cast<std::size_t>(cell) == sums.size()) sums.emplace_back();
-    sums[static_cast<std::size_t>(cell)].add(p - (corner.array() + 0.5F).matrix() * edge_m);
-    cell_of_point_[k] = cell;
+    const Index3 index = indexAt(p * inverse_edge);
+    const Key key = keyOf(index);
+    Last& last = last_of_beam[cloud[k].ring % kBeams];
+    if (key != last.key) {
+      last = {key, numbers.numberOf(key)};
+      if (static_cast<std::size_t>(last.cell) == sums.size()) sums.emplace_back();
+    }
+    sums[static_cast<std::size_t>(last.cell)].add(p - (index.cast<float>().array() + 0.5F).matrix() * edge_m);
+    cell_of_point_[k] = last.cell;
   }
   keys_ = numbers.keys();
   levels_[0].reserve(sums.size());

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace mrpt_sgraphs {
@@ -14,6 +15,8 @@ constexpr double kGateSigmas = 3.0;
 constexpr double kMinGate_m = 0.015;
 /// A surface seen from within so little of its plane is seen from neither side.
 constexpr double kMinView_m = 0.05;
+/// A fit that moved by less than so many sigmas has not changed which points are its own.
+constexpr double kSmallMove = 0.3;
 
 double gateOf(double sigma_m) { return std::max(kMinGate_m, kGateSigmas * sigma_m); }
 
@@ -74,9 +77,66 @@ int regionOf(const Eigen::Vector3f& p, int cell, const Candidates& candidates,
   return nearest;
 }
 
-FittedPlane turned(FittedPlane fit) {
-  fit.plane = {-fit.plane.normal, -fit.plane.distance};
-  fit.axes = -fit.axes;
+/// The heights of points over a frame's plane as a function of where they are,
+/// height = a u + b v + c: a plane that is nearly the frame's, by linear least squares.
+struct HeightFit {
+  Eigen::Vector3d abc{0.0, 0.0, 0.0};
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+  Eigen::Vector2d centroid{0.0, 0.0};
+  double sigma_m = 0.0;
+  double moved_m = 0.0;  ///< From the last fit, at a point that is far from the centroid.
+};
+
+/// Fits anew to the points within a gate of the last fit, and drops the others.
+HeightFit fitHeights(const HeightFit& last, double gate_m, PlanePoints* points) {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double square_sum = 0.0;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < points->local.size(); ++k) {
+    const Eigen::Vector3f p = points->local[k];
+    const double u = p.x();
+    const double v = p.y();
+    const double e = p.z() - (last.abc[0] * u + last.abc[1] * v + last.abc[2]);
+    if (std::abs(e) > gate_m) continue;
+    points->local[kept] = p;
+    points->indices[kept] = points->indices[k];
+    ++kept;
+    const double e2 = e * e;
+    const std::array<double, 5> row{u * u, u * v, v * v, u, v};
+    information(0, 0) += row[0];
+    information(1, 0) += row[1];
+    information(1, 1) += row[2];
+    information(2, 0) += row[3];
+    information(2, 1) += row[4];
+    scatter(0, 0) += e2 * row[0];
+    scatter(1, 0) += e2 * row[1];
+    scatter(1, 1) += e2 * row[2];
+    scatter(2, 0) += e2 * row[3];
+    scatter(2, 1) += e2 * row[4];
+    square_sum += e2;
+    right += Eigen::Vector3d(e * u, e * v, e);
+  }
+  points->local.resize(kept);
+  points->indices.resize(kept);
+  const double n = static_cast<double>(kept);
+  information(2, 2) = n;
+  scatter(2, 2) = square_sum;
+  information = information.selfadjointView<Eigen::Lower>();
+  scatter = scatter.selfadjointView<Eigen::Lower>();
+
+  HeightFit fit;
+  const Eigen::Matrix3d inverse = information.inverse();
+  const Eigen::Vector3d change = inverse * right;
+  constexpr double kUnknowns = 3.0;
+  const double freedom = std::max(1.0, n - kUnknowns);
+  fit.abc = last.abc + change;
+  fit.covariance = n / freedom * inverse * scatter * inverse;
+  fit.centroid = information.col(2).head<2>() / n;
+  fit.sigma_m = std::sqrt(std::max(0.0, square_sum - change.dot(right)) / freedom);
+  // the root mean square over the points, twice: their edge
+  fit.moved_m = 2.0 * std::sqrt(change.dot(information * change) / n);
   return fit;
 }
 
@@ -88,76 +148,70 @@ std::vector<PlanePoints> pointsOnPlanes(const GatheredPoints& points, const Plan
   std::vector<Gate> gates;
   std::vector<PlanePoints> sides;  // of each region the one that its normal points to, the other
   for (const PlaneRegion& region : regions) {
-    gates.push_back({region.fit.plane.normal.cast<float>(),
-                     static_cast<float>(region.fit.plane.distance),
+    const Plane& plane = region.fit.plane;
+    gates.push_back({plane.normal.cast<float>(), static_cast<float>(plane.distance),
                      static_cast<float>(gateOf(region.sigma_m))});
-    sides.push_back({region.fit, region.sigma_m, {}});
-    sides.push_back({turned(region.fit), region.sigma_m, {}});
+    for (const double side : {1.0, -1.0}) {
+      const Plane seen{side * plane.normal, side * plane.distance};
+      sides.push_back({PlaneFrame(seen, region.fit.centroid), region.sigma_m, {}, {}});
+    }
   }
 
-  std::vector<std::vector<int>*> seen_side(regions.size());
+  std::vector<PlanePoints*> seen_side(regions.size());
   for (std::size_t v = 0; v < points.views.size(); ++v) {
     for (std::size_t r = 0; r < regions.size(); ++r) {
       const double height_m = regions[r].fit.distance(points.views[v].viewpoint);
-      seen_side[r] = std::abs(height_m) < kMinView_m ? nullptr
-                                                     : &sides[2 * r + (height_m < 0.0)].indices;
+      seen_side[r] =
+          std::abs(height_m) < kMinView_m ? nullptr : &sides[2 * r + (height_m < 0.0 ? 1 : 0)];
     }
     const std::size_t end =
         v + 1 < points.views.size() ? points.views[v + 1].first : points.cloud.size();
     for (std::size_t k = points.views[v].first; k < end; ++k) {
-      const int r =
-          regionOf(points.cloud[k].getVector3fMap(), cells.cellOf(k), candidates, gates);
+      const int r = regionOf(points.cloud[k].getVector3fMap(), cells.cellOf(k), candidates, gates);
       if (r < 0 || seen_side[static_cast<std::size_t>(r)] == nullptr) continue;
-      seen_side[static_cast<std::size_t>(r)]->push_back(static_cast<int>(k));
+      seen_side[static_cast<std::size_t>(r)]->indices.push_back(static_cast<int>(k));
+    }
+  }
+  for (PlanePoints& side : sides) {
+    Eigen::Matrix3f axes;
+    axes << side.frame.u.transpose().cast<float>(), side.frame.v.transpose().cast<float>(),
+        side.frame.normal.transpose().cast<float>();
+    const Eigen::Vector3f origin = side.frame.origin.cast<float>();
+    side.local.reserve(side.indices.size());
+    for (const int index : side.indices) {
+      const Point& p = points.cloud[static_cast<std::size_t>(index)];
+      side.local.emplace_back(axes * (p.getVector3fMap() - origin));
     }
   }
   return sides;
 }
 
-void refit(const Cloud& cloud, PlanePoints* on_plane) {
-  const auto point = [&cloud](int index) -> Eigen::Vector3d {
-    return cloud[static_cast<std::size_t>(index)].getVector3fMap().cast<double>();
-  };
-  constexpr int kPasses = 2;
-  for (int pass = 0; pass < kPasses && on_plane->indices.size() > 3; ++pass) {
-    Scatter scatter;
-    const Eigen::Vector3d origin = on_plane->fit.centroid;  // sums stay small about it
-    for (const int index : on_plane->indices) scatter.add(point(index) - origin);
-    FittedPlane fit = fitPlane(scatter);
-    fit.centroid += origin;
-    fit.plane.distance = fit.plane.normal.dot(fit.centroid);
-    if (fit.plane.normal.dot(on_plane->fit.plane.normal) < 0.0) fit = turned(fit);
-    on_plane->fit = fit;
-    on_plane->sigma_m = std::sqrt(fit.variance_m2.x());
-    if (pass + 1 == kPasses) break;
-    const double gate_m = gateOf(on_plane->sigma_m);
-    auto& indices = on_plane->indices;
-    indices.erase(std::remove_if(indices.begin(), indices.end(),
-                                 [&](int index) {
-                                   return std::abs(fit.distance(point(index))) > gate_m;
-                                 }),
-                  indices.end());
+MeasuredPlane measurePlane(PlanePoints* on_plane) {
+  // The region's plane is most often the points' own already; not that of a thin wall's two faces.
+  HeightFit fit;
+  fit.sigma_m = on_plane->sigma_m;
+  constexpr int kMaxPasses = 3;
+  for (int pass = 0; pass < kMaxPasses && on_plane->local.size() > 3; ++pass) {
+    const double expected_m = fit.sigma_m;
+    fit = fitHeights(fit, gateOf(expected_m), on_plane);
+    if (fit.moved_m < kSmallMove * expected_m) break;
   }
-}
+  on_plane->sigma_m = fit.sigma_m;
 
-Eigen::Matrix3d covarianceAtCentroid(const Cloud& cloud, const PlanePoints& on_plane) {
-  const FittedPlane& fit = on_plane.fit;
-  const TangentBasis basis = tangentBasis(fit.plane.normal);
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const int index : on_plane.indices) {
-    const Eigen::Vector3d p =
-        cloud[static_cast<std::size_t>(index)].getVector3fMap().cast<double>();
-    Eigen::Vector3d row;
-    row << basis.transpose() * (p - fit.centroid), -1.0;
-    const double e = fit.distance(p);
-    const Eigen::Matrix3d square = row * row.transpose();
-    information += square;
-    scatter += e * e * square;
-  }
-  const Eigen::Matrix3d inverse = information.inverse();
-  const double n = static_cast<double>(on_plane.indices.size());
-  return n / (n - 3.0) * inverse * scatter * inverse;
+  const PlaneFrame& frame = on_plane->frame;
+  const Eigen::Vector3d in_frame(fit.centroid.x(), fit.centroid.y(), 1.0);
+  MeasuredPlane measured;
+  measured.sigma_m = fit.sigma_m;
+  measured.centroid = frame.lifted(fit.centroid) + fit.abc.dot(in_frame) * frame.normal;
+  measured.plane.normal =
+      (frame.normal - fit.abc[0] * frame.u - fit.abc[1] * frame.v).normalized();
+  measured.plane.distance = measured.plane.normal.dot(measured.centroid);
+  const TangentBasis basis = tangentBasis(measured.plane.normal);
+  Eigen::Matrix3d J;
+  J << -basis.transpose() * frame.u, -basis.transpose() * frame.v, Eigen::Vector2d::Zero(),
+      in_frame.transpose();
+  measured.covariance_at_centroid = J * fit.covariance * J.transpose();
+  return measured;
 }
 
 }  // namespace mrpt_sgraphs

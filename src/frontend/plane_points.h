@@ -6,15 +6,17 @@
 #include <vector>
 
 #include "mrpt_sgraphs/frontend/scan_gatherer.h"
+#include "mrpt_sgraphs/geometry/plane_frame.h"
 #include "plane_growing.h"
 
 namespace mrpt_sgraphs {
 
-/// Points on one side of a plane.
+/// Points on one side of a plane, in a frame that lies nearly in it.
 struct PlanePoints {
-  FittedPlane fit;   ///< Its normal points to the side that they were seen from.
-  double sigma_m = 0.0;
-  std::vector<int> indices;
+  PlaneFrame frame;      ///< Its normal points to the side that they were seen from.
+  double sigma_m = 0.0;  ///< Of the points across the plane.
+  std::vector<int> indices;            ///< Into the cloud.
+  std::vector<Eigen::Vector3f> local;  ///< Along u, v and the normal, from the frame's origin.
 };
 
 /// Gives the points to the regions that they lie on, each to one: those in cells of two surfaces,
@@ -23,11 +25,19 @@ struct PlanePoints {
 std::vector<PlanePoints> pointsOnPlanes(const GatheredPoints& points, const PlaneCells& cells,
                                         const std::vector<PlaneRegion>& regions);
 
-/// Fits the plane to its points again, and drops those that do not lie on it.
-void refit(const Cloud& cloud, PlanePoints* on_plane);
+/// A plane and how well its points determine it.
+struct MeasuredPlane {
+  Plane plane;
+  Eigen::Vector3d centroid{0.0, 0.0, 0.0};
+  /// Of the PlaneTangent's turns and of the offset *at the centroid*, from how the points lie about
+  /// the plane: each tells what it scatters by itself, so noise along slanting beams is no
+  /// assumption.
+  Eigen::Matrix3d covariance_at_centroid = Eigen::Matrix3d::Identity();
+  double sigma_m = 0.0;
+};
 
-/// Of the plane's tangent *at the points' centroid*, from how the points lie about it: each tells
-/// what it scatters by itself, so that noise along slanting beams is no assumption.
-Eigen::Matrix3d covarianceAtCentroid(const Cloud& cloud, const PlanePoints& on_plane);
+/// Fits a plane to the points, and drops those that do not lie on it.
+/// @param on_plane  Four points or more.
+MeasuredPlane measurePlane(PlanePoints* on_plane);
 
 }  // namespace mrpt_sgraphs

@@ -18,36 +18,73 @@ namespace {
 
 /// Edge of the finest cells of space [m]: the two faces of most walls lie in different ones.
 constexpr double kFinest_m = 0.2;
-/// Edge of the cells in a plane that extents are made of [m].
+/// Extents are made of so many cells at the most, none smaller than the least edge.
+constexpr double kExtentCells = 2500.0;
 constexpr double kExtentCell_m = 0.1;
 /// Beams are farther apart than these cells: gaps up to this say nothing of the surface [m].
 constexpr double kSampling_m = 0.5;
 /// A normal that is known worse belongs to a line of points [rad].
 constexpr double kMaxNormalSigma_rad = 0.05;
 
-Eigen::Vector3d pointAt(const Cloud& cloud, int index) {
-  return cloud[static_cast<std::size_t>(index)].getVector3fMap().cast<double>();
+/// The cells that are in both.
+CellSet shared(const CellSet& a, const CellSet& b) {
+  CellSet both(a.box());
+  a.forEach([&](Cell cell) {
+    if (b.contains(cell)) both.add(cell);
+  });
+  return both;
 }
 
-/// What of the plane the points cover, what lies between them filled in.
-CellSet coveredBy(const Cloud& cloud, const PlanePoints& on_plane, const PlaneFrame& frame) {
+/// What of a plane its points cover: cells of a size that follows from how large it is.
+struct Cover {
+  double cell_m = kExtentCell_m;
+  Eigen::Vector2f corner{0.0F, 0.0F};  ///< Of the cell (0, 0), along u and v.
   CellSet cells;
-  for (const int index : on_plane.indices) {
-    cells.add(cellAt(frame.flat(pointAt(cloud, index)), kExtentCell_m));
-  }
-  return withGapsClosed(cells, static_cast<int>(kSampling_m / kExtentCell_m));
-}
 
-PlanePoints within(const CellSet& part, const Cloud& cloud, const PlanePoints& on_plane,
-                   const PlaneFrame& frame) {
-  PlanePoints inside = on_plane;
-  auto& indices = inside.indices;
-  indices.erase(std::remove_if(indices.begin(), indices.end(),
-                               [&](int index) {
-                                 const Eigen::Vector2d p = frame.flat(pointAt(cloud, index));
-                                 return !part.contains(cellAt(p, kExtentCell_m));
-                               }),
-                indices.end());
+  explicit Cover(const std::vector<Eigen::Vector3f>& local) {
+    Eigen::Array2f low = local.front().head<2>();
+    Eigen::Array2f high = low;
+    for (const Eigen::Vector3f& p : local) {
+      low = low.min(p.head<2>().array());
+      high = high.max(p.head<2>().array());
+    }
+    corner = low;
+    cell_m = std::max(kExtentCell_m,
+                      std::sqrt(static_cast<double>((high - low).prod()) / kExtentCells));
+    cells = CellSet(CellBox{cellOf(low), cellOf(high)});
+    for (const Eigen::Vector3f& p : local) cells.add(cellOf(p.head<2>()));
+    cells = withGapsClosed(cells, static_cast<int>(kSampling_m / cell_m));
+  }
+
+  /// Of a point that is not below the corner: truncation is quick.
+  Cell cellOf(const Eigen::Vector2f& p) const {
+    const Eigen::Vector2f in_cells = (p - corner) / static_cast<float>(cell_m);
+    return {static_cast<int>(in_cells.x()), static_cast<int>(in_cells.y())};
+  }
+
+  /// Parts with gaps between them that are wider than `max_gap_m` along u or v, the largest first.
+  std::vector<CellSet> parts(double max_gap_m) const {
+    std::vector<CellSet> result =
+        connectedParts(withGapsClosed(cells, static_cast<int>(max_gap_m / cell_m)));
+    if (result.size() == 1) return {cells};
+    for (CellSet& part : result) part = shared(part, cells);
+    std::stable_sort(result.begin(), result.end(),
+                     [](const CellSet& a, const CellSet& b) { return a.size() > b.size(); });
+    return result;
+  }
+
+  double area_m2(const CellSet& part) const {
+    return static_cast<double>(part.size()) * cell_m * cell_m;
+  }
+};
+
+PlanePoints within(const CellSet& part, const Cover& cover, const PlanePoints& on_plane) {
+  PlanePoints inside{on_plane.frame, on_plane.sigma_m, {}, {}};
+  for (std::size_t k = 0; k < on_plane.local.size(); ++k) {
+    if (!part.contains(cover.cellOf(on_plane.local[k].head<2>()))) continue;
+    inside.indices.push_back(on_plane.indices[k]);
+    inside.local.push_back(on_plane.local[k]);
+  }
   return inside;
 }
 
@@ -78,39 +115,40 @@ class Segmentation {
 
   void takeParts(PlanePoints* on_plane) {
     if (!hasEnough(*on_plane)) return;
-    refit(points_.cloud, on_plane);
-    const PlaneFrame frame(on_plane->fit.plane, on_plane->fit.centroid);
-    const std::vector<CellSet> parts =
-        pieces(coveredBy(points_.cloud, *on_plane, frame), config_.max_gap_m / kExtentCell_m);
-    const double cell_m2 = kExtentCell_m * kExtentCell_m;
+    const MeasuredPlane measured = measurePlane(on_plane);
+    if (!hasEnough(*on_plane)) return;
+    const Cover cover(on_plane->local);
+    const std::vector<CellSet> parts = cover.parts(config_.max_gap_m);
     for (const CellSet& part : parts) {
-      if (static_cast<double>(part.size()) * cell_m2 < config_.min_area_m2) break;  // smaller ones follow
+      if (cover.area_m2(part) < config_.min_area_m2) break;  // smaller ones follow
       if (parts.size() == 1) {
-        takeIfPlane(*on_plane, part, frame);
+        takeIfPlane(*on_plane, measured, part, cover);
         return;
       }
-      PlanePoints inside = within(part, points_.cloud, *on_plane, frame);
+      PlanePoints inside = within(part, cover, *on_plane);
       if (!hasEnough(inside)) continue;
-      refit(points_.cloud, &inside);
-      takeIfPlane(inside, part, frame);
+      const MeasuredPlane part_measured = measurePlane(&inside);
+      takeIfPlane(inside, part_measured, part, cover);
     }
   }
 
-  void takeIfPlane(const PlanePoints& on_plane, const CellSet& part, const PlaneFrame& frame) {
-    if (!hasEnough(on_plane) || on_plane.sigma_m > config_.max_thickness_m) return;
-    const Eigen::Matrix3d at_centroid = covarianceAtCentroid(points_.cloud, on_plane);
-    if (!(largestNormalSigma(at_centroid) < kMaxNormalSigma_rad)) return;
+  void takeIfPlane(const PlanePoints& on_plane, const MeasuredPlane& measured, const CellSet& part,
+                   const Cover& cover) {
+    if (!hasEnough(on_plane) || measured.sigma_m > config_.max_thickness_m) return;
+    if (!(largestNormalSigma(measured.covariance_at_centroid) < kMaxNormalSigma_rad)) return;
 
     const double angle2 = config_.systematic_rad * config_.systematic_rad;
     const Eigen::Vector3d systematic(angle2, angle2, config_.systematic_m * config_.systematic_m);
     PlaneSegment segment;
-    segment.plane_base = on_plane.fit.plane;
-    segment.centroid_base = on_plane.fit.centroid;
-    const Eigen::Matrix3d J = tangentFromPoint(segment.plane_base, segment.centroid_base);
-    segment.covariance =
-        J * (at_centroid + Eigen::Matrix3d(systematic.asDiagonal())) * J.transpose();
-    const FlatExtent extent = outlineOf(part, {kExtentCell_m, config_.max_gap_m});
-    segment.extent_base = lifted(extent, frame);
+    segment.plane_base = measured.plane;
+    segment.centroid_base = measured.centroid;
+    const Eigen::Matrix3d J = tangentFromPoint(measured.plane, measured.centroid);
+    segment.covariance = J *
+                         (measured.covariance_at_centroid + Eigen::Matrix3d(systematic.asDiagonal())) *
+                         J.transpose();
+    const FlatExtent extent = outlineOf(part, {cover.cell_m, config_.max_gap_m});
+    const Eigen::Vector3d corner_base = on_plane.frame.lifted(cover.corner.cast<double>());
+    segment.extent_base = lifted(extent, PlaneFrame(measured.plane, corner_base));
     segment.area_m2 = areaOf(extent);
     segment.points = static_cast<int>(on_plane.indices.size());
     segment.indices = on_plane.indices;

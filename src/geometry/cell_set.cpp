@@ -4,6 +4,7 @@
 #include "mrpt_sgraphs/geometry/cell_set.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace mrpt_sgraphs {
@@ -19,19 +20,6 @@ void crossingsOf(const Outline2& ring, double v, std::vector<double>* crossings)
   }
 }
 
-/// Calls `fill` for each run of at most max_gap empty cells between two of the set on one line.
-template <typename At, typename Fill>
-void fillRuns(int first, int last, int max_gap, const At& at, const Fill& fill) {
-  std::optional<int> before;
-  for (int k = first; k <= last; ++k) {
-    if (!at(k)) continue;
-    if (before && k - *before - 1 <= max_gap) {
-      for (int between = *before + 1; between < k; ++between) fill(between);
-    }
-    before = k;
-  }
-}
-
 }  // namespace
 
 Cell cellAt(const Eigen::Vector2d& point, double cell_m) {
@@ -41,13 +29,6 @@ Cell cellAt(const Eigen::Vector2d& point, double cell_m) {
 
 CellBox CellBox::grown(int cells) const {
   return {{min.column - cells, min.row - cells}, {max.column + cells, max.row + cells}};
-}
-
-CellBox CellBox::united(const CellBox& other) const {
-  if (empty()) return other;
-  if (other.empty()) return *this;
-  return {{std::min(min.column, other.min.column), std::min(min.row, other.min.row)},
-          {std::max(max.column, other.max.column), std::max(max.row, other.max.row)}};
 }
 
 CellBox CellBox::shared(const CellBox& other) const {
@@ -63,29 +44,46 @@ CellSet::CellSet(const CellBox& box) : room_(box) {
   cells_.resize(static_cast<std::size_t>(box.columns()) * static_cast<std::size_t>(box.rows()));
 }
 
-void CellSet::add(Cell cell) {
-  if (!room_.contains(cell)) {
-    // Half as much again to each side: what grows cell by cell is not copied cell by cell.
-    const CellBox needed = room_.united({cell, cell});
-    CellSet larger(needed.grown(4 + std::max(needed.columns(), needed.rows()) / 4));
-    larger.add(*this);
-    *this = std::move(larger);
-  }
-  uint8_t& entry = cells_[place(cell)];
-  if (entry != 0) return;
-  entry = 1;
-  ++size_;
-  box_ = box_.united({cell, cell});
+void CellSet::makeRoomFor(Cell cell) {
+  // Half as much again to each side: what grows cell by cell is not copied cell by cell.
+  const CellBox needed = room_.united({cell, cell});
+  CellSet larger(needed.grown(4 + std::max(needed.columns(), needed.rows()) / 4));
+  larger.add(*this);
+  *this = std::move(larger);
 }
 
 void CellSet::add(const CellSet& other) {
   other.forEach([this](Cell cell) { add(cell); });
 }
 
-void CellSet::remove(Cell cell) {
-  if (!contains(cell)) return;
-  cells_[place(cell)] = 0;
-  --size_;
+void CellSet::closeGaps(int max_gap) {
+  const auto fill = [this](std::size_t from, std::size_t to, std::size_t step) {
+    for (std::size_t at = from + step; at < to; at += step) {
+      cells_[at] = 1;
+      ++size_;
+    }
+  };
+  constexpr int kNone = std::numeric_limits<int>::min() / 2;
+  const std::size_t row_step = static_cast<std::size_t>(room_.columns());
+  for (int row = box_.min.row; row <= box_.max.row; ++row) {
+    int last = kNone;
+    for (int column = box_.min.column; column <= box_.max.column; ++column) {
+      const std::size_t at = place({column, row});
+      if (cells_[at] == 0) continue;
+      if (column - last - 1 <= max_gap) fill(place({last, row}), at, 1);
+      last = column;
+    }
+  }
+  std::vector<int> last_row(static_cast<std::size_t>(box_.columns()), kNone);
+  for (int row = box_.min.row; row <= box_.max.row; ++row) {
+    for (int column = box_.min.column; column <= box_.max.column; ++column) {
+      const std::size_t at = place({column, row});
+      if (cells_[at] == 0) continue;
+      int& last = last_row[static_cast<std::size_t>(column - box_.min.column)];
+      if (row - last - 1 <= max_gap) fill(place({column, last}), at, row_step);
+      last = row;
+    }
+  }
 }
 
 CellSet rasterized(const FlatExtent& extent, double cell_m) {
@@ -150,29 +148,9 @@ CellSet withGapsClosed(const CellSet& cells, int max_gap) {
   // A cell that was filled along a row may be the end of a gap in a column, and so on; what a few
   // rounds leave open are corners between pieces that lie askew.
   constexpr int kRounds = 3;
-  const CellBox& box = cells.box();
   for (int round = 0; round < kRounds; ++round) {
     const std::size_t size = closed.size();
-    for (int row = box.min.row; row <= box.max.row; ++row) {
-      fillRuns(
-          box.min.column, box.max.column, max_gap,
-          [&](int column) {
-            return closed.contains({column, row});
-          },
-          [&](int column) {
-            closed.add({column, row});
-          });
-    }
-    for (int column = box.min.column; column <= box.max.column; ++column) {
-      fillRuns(
-          box.min.row, box.max.row, max_gap,
-          [&](int row) {
-            return closed.contains({column, row});
-          },
-          [&](int row) {
-            closed.add({column, row});
-          });
-    }
+    closed.closeGaps(max_gap);
     if (closed.size() == size) break;
   }
   return closed;

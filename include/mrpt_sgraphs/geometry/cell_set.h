@@ -36,7 +36,12 @@ struct CellBox {
            cell.row <= max.row;
   }
   CellBox grown(int cells) const;
-  CellBox united(const CellBox& other) const;
+  CellBox united(const CellBox& other) const {
+    if (empty()) return other;
+    if (other.empty()) return *this;
+    return {{std::min(min.column, other.min.column), std::min(min.row, other.min.row)},
+            {std::max(max.column, other.max.column), std::max(max.row, other.max.row)}};
+  }
   CellBox shared(const CellBox& other) const;
 };
 
@@ -57,9 +62,23 @@ class CellSet {
   const CellBox& box() const { return box_; }
 
   /// @throws std::length_error as the constructor.
-  void add(Cell cell);
+  void add(Cell cell) {
+    if (!room_.contains(cell)) makeRoomFor(cell);
+    uint8_t& entry = cells_[place(cell)];
+    if (entry != 0) return;
+    entry = 1;
+    ++size_;
+    box_ = box_.united({cell, cell});
+  }
   void add(const CellSet& other);
-  void remove(Cell cell);
+  void remove(Cell cell) {
+    if (!contains(cell)) return;
+    cells_[place(cell)] = 0;
+    --size_;
+  }
+
+  /// Adds the cells between any two in a row, then in a column, that are at most `max_gap` apart.
+  void closeGaps(int max_gap);
 
   /// Row by row.
   template <typename Visit>
@@ -77,6 +96,8 @@ class CellSet {
                static_cast<std::size_t>(room_.columns()) +
            static_cast<std::size_t>(cell.column - room_.min.column);
   }
+
+  void makeRoomFor(Cell cell);
 
   CellBox room_;  ///< What there is memory for.
   CellBox box_;
