@@ -3,9 +3,11 @@
 
 #include "plane_growing.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "bend_test.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -184,34 +186,13 @@ class Growth {
 };
 
 bool Growth::isBent(double sigma_m) const {
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
-  Matrix6 normal = Matrix6::Zero();
-  Vector6 right = Vector6::Zero();
-  double count = 0.0;
+  BendTest test(std::sqrt(fit_.variance_m2.y()), std::sqrt(fit_.variance_m2.z()));
   for (const int cell : taken_) {
     const Scatter& scatter = cells_.scatter(0, cell);
     const Eigen::Vector3d p = fit_.axes.transpose() * (scatter.mean() - fit_.centroid);
-    const double u = p.y() / std::sqrt(fit_.variance_m2.y());
-    const double v = p.z() / std::sqrt(fit_.variance_m2.z());
-    Vector6 row;
-    row << 1.0, u, v, u * u, u * v, v * v;
-    normal.noalias() += scatter.count() * row * row.transpose();
-    right.noalias() += scatter.count() * p.x() * row;
-    count += scatter.count();
+    test.add(scatter.count(), p.y(), p.z(), p.x());
   }
-  constexpr double kDamping = 1e-3;  // a region of one row of cells has no curvature across it
-  normal.diagonal().array() += kDamping * count;
-  const Eigen::LDLT<Matrix6> solver(normal);
-  const Vector6 bend = solver.solve(right);
-  const Matrix6 covariance = solver.solve(Matrix6::Identity());
-  constexpr double kSignificance = 6.0;
-  constexpr double kMinBend_m = 0.004;  ///< One sigma away from the middle.
-  const double sigma = std::max(sigma_m, kMinSigma_m);
-  for (const int k : {3, 5}) {
-    const double error_m = sigma * std::sqrt(covariance(k, k));
-    if (std::abs(bend[k]) > std::max(kSignificance * error_m, kMinBend_m)) return true;
-  }
-  return false;
+  return test.isBent(std::max(sigma_m, kMinSigma_m));
 }
 
 }  // namespace

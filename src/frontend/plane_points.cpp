@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "bend_test.h"
+
 namespace mrpt_sgraphs {
 namespace {
 
@@ -83,6 +85,7 @@ struct HeightFit {
   Eigen::Vector3d abc{0.0, 0.0, 0.0};
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
   Eigen::Vector2d centroid{0.0, 0.0};
+  Eigen::Vector2d spread_m{0.0, 0.0};
   double sigma_m = 0.0;
   double moved_m = 0.0;  ///< From the last fit, at a point that is far from the centroid.
 };
@@ -134,6 +137,8 @@ HeightFit fitHeights(const HeightFit& last, double gate_m, PlanePoints* points) 
   fit.abc = last.abc + change;
   fit.covariance = n / freedom * inverse * scatter * inverse;
   fit.centroid = information.col(2).head<2>() / n;
+  const Eigen::Vector2d squares = information.diagonal().head<2>() / n;
+  fit.spread_m = (squares - fit.centroid.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
   fit.sigma_m = std::sqrt(std::max(0.0, square_sum - change.dot(right)) / freedom);
   // the root mean square over the points, twice: their edge
   fit.moved_m = 2.0 * std::sqrt(change.dot(information * change) / n);
@@ -202,6 +207,7 @@ MeasuredPlane measurePlane(PlanePoints* on_plane) {
   const Eigen::Vector3d in_frame(fit.centroid.x(), fit.centroid.y(), 1.0);
   MeasuredPlane measured;
   measured.sigma_m = fit.sigma_m;
+  measured.spread_m = fit.spread_m;
   measured.centroid = frame.lifted(fit.centroid) + fit.abc.dot(in_frame) * frame.normal;
   measured.plane.normal =
       (frame.normal - fit.abc[0] * frame.u - fit.abc[1] * frame.v).normalized();
@@ -212,6 +218,21 @@ MeasuredPlane measurePlane(PlanePoints* on_plane) {
       in_frame.transpose();
   measured.covariance_at_centroid = J * fit.covariance * J.transpose();
   return measured;
+}
+
+bool isBent(const PlanePoints& on_plane, const MeasuredPlane& measured) {
+  constexpr std::size_t kEnough = 500;  // of the points
+  const std::size_t stride = on_plane.local.size() / kEnough + 1;
+  const PlaneFrame& frame = on_plane.frame;
+  const Eigen::Vector2d centre = frame.flat(measured.centroid);
+  BendTest test(measured.spread_m.x(), measured.spread_m.y());
+  for (std::size_t k = 0; k < on_plane.local.size(); k += stride) {
+    const Eigen::Vector3d p = on_plane.local[k].cast<double>();
+    const Eigen::Vector3d point =
+        frame.lifted(p.head<2>()) + p.z() * frame.normal - measured.centroid;
+    test.add(1.0, p.x() - centre.x(), p.y() - centre.y(), measured.plane.normal.dot(point));
+  }
+  return test.isBent(measured.sigma_m);
 }
 
 }  // namespace mrpt_sgraphs

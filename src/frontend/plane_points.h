@@ -34,10 +34,14 @@ struct MeasuredPlane {
   /// assumption.
   Eigen::Matrix3d covariance_at_centroid = Eigen::Matrix3d::Identity();
   double sigma_m = 0.0;
+  Eigen::Vector2d spread_m{0.0, 0.0};  ///< One sigma of where the points are, along u and v.
 };
 
 /// Fits a plane to the points, and drops those that do not lie on it.
 /// @param on_plane  Four points or more.
 MeasuredPlane measurePlane(PlanePoints* on_plane);
+
+/// Whether the points follow a bend about their plane.
+bool isBent(const PlanePoints& on_plane, const MeasuredPlane& measured);
 
 }  // namespace mrpt_sgraphs

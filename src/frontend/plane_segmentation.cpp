@@ -25,6 +25,8 @@ constexpr double kExtentCell_m = 0.1;
 constexpr double kSampling_m = 0.5;
 /// A normal that is known worse belongs to a line of points [rad].
 constexpr double kMaxNormalSigma_rad = 0.05;
+/// One sigma of where the points are: a narrower strip is a jamb, or the side of something round.
+constexpr double kMinSpread_m = 0.08;
 
 /// The cells that are in both.
 CellSet shared(const CellSet& a, const CellSet& b) {
@@ -136,6 +138,7 @@ class Segmentation {
                    const Cover& cover) {
     if (!hasEnough(on_plane) || measured.sigma_m > config_.max_thickness_m) return;
     if (!(largestNormalSigma(measured.covariance_at_centroid) < kMaxNormalSigma_rad)) return;
+    if (measured.spread_m.minCoeff() < kMinSpread_m || isBent(on_plane, measured)) return;
 
     const double angle2 = config_.systematic_rad * config_.systematic_rad;
     const Eigen::Vector3d systematic(angle2, angle2, config_.systematic_m * config_.systematic_m);
