@@ -3,7 +3,7 @@
 //
 // Planes of single scans, ours beside PCL's RANSAC, on the same scans of a simulated building:
 //
-//     plane_segmentation --building FILE.yaml [--every N] [--csv FILE]
+//     plane_segmentation --building FILE.yaml [--sensor NAME ...] [--every N] [--csv FILE]
 //
 // PCL's way is the usual one: a voxel filter of 0.1 m, then SACSegmentation (0.03 m, 500 iterations)
 // and ExtractIndices until ten planes are found or a tenth of the points is left. The two take turns
@@ -37,6 +37,7 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr double kMedian = 0.5;
+constexpr char kDense[] = "64x2048";
 
 /// A plane that was found, in the map.
 struct Found {
@@ -248,13 +249,25 @@ void compare(const sim::Building& building, const sim::LidarModel& lidar, int ev
               quantile(ransac.ms, kMedian) / quantile(ours.ms, kMedian));
 }
 
+/// The simulator's, and one of 64 x 2048 points.
+sim::LidarModel lidarNamed(const std::string& name) {
+  if (name != kDense) return sim::lidarNamed(name);
+  sim::LidarModel dense = sim::lidarNamed("os1_64");
+  dense.name = kDense;
+  dense.columns = 2048;
+  return dense;
+}
+
 int run(int argc, char** argv) {
   std::string building_file, csv_file;
+  std::vector<std::string> sensors;
   int every = 40;
   po::options_description options("Options");
-  options.add_options()("building", po::value(&building_file)->required())(
-      "every", po::value(&every), "of the walk's scans are used")(
-      "csv", po::value(&csv_file), "a row for every scan");
+  auto add = options.add_options();
+  add("building", po::value(&building_file)->required());
+  add("sensor", po::value(&sensors)->multitoken()->default_value({"vlp16", kDense}, "vlp16 64x2048"));
+  add("every", po::value(&every), "of the walk's scans are used");
+  add("csv", po::value(&csv_file), "a row for every scan");
   po::variables_map values;
   po::store(po::parse_command_line(argc, argv, options), values);
   po::notify(values);
@@ -262,11 +275,8 @@ int run(int argc, char** argv) {
   const sim::Building building = sim::loadBuilding(building_file);
   std::ofstream csv(csv_file);
   if (csv.is_open()) csv << "sensor,scan,points,ours_ms,ransac_ms\n";
-  sim::LidarModel dense = sim::lidarNamed("os1_64");
-  dense.name = "64 beams";
-  dense.columns = 2048;
-  for (const sim::LidarModel& lidar : {sim::lidarNamed("vlp16"), dense}) {
-    compare(building, lidar, std::max(1, every), &csv);
+  for (const std::string& name : sensors) {
+    compare(building, lidarNamed(name), std::max(1, every), &csv);
   }
   return 0;
 }

@@ -192,15 +192,19 @@ void PlaneCells::joinIntoCoarser() {
 void PlaneCells::findNeighbours() {
   KeyNumbers numbers(neighbour_level_keys_.size());
   for (const Key key : neighbour_level_keys_) numbers.numberOf(key);
-  neighbours_.resize(neighbour_level_keys_.size());
+  constexpr std::size_t kMost = 26;
+  neighbours_.reserve(kMost * neighbour_level_keys_.size());
+  neighbour_begins_.reserve(neighbour_level_keys_.size() + 1);
   for (std::size_t c = 0; c < neighbour_level_keys_.size(); ++c) {
     const Index3 index = indexOf(neighbour_level_keys_[c]);
+    neighbour_begins_.push_back(static_cast<int>(neighbours_.size()));
     for (int n = 0; n < 27; ++n) {
       const Index3 step(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
       const int neighbour = step.isZero() ? -1 : numbers.find(keyOf(index + step));
-      if (neighbour >= 0) neighbours_[c].push_back(neighbour);
+      if (neighbour >= 0) neighbours_.push_back(neighbour);
     }
   }
+  neighbour_begins_.push_back(static_cast<int>(neighbours_.size()));
 }
 
 PlaneCells::Run PlaneCells::finestIn(int level, int cell) const {

@@ -43,8 +43,10 @@ class PlaneCells {
 
   /// The cells next to a cell of the neighbour level, corners too.
   static constexpr int kNeighbourLevel = 2;
-  const std::vector<int>& neighbours(int cell) const {
-    return neighbours_[static_cast<std::size_t>(cell)];
+  Run neighbours(int cell) const {
+    const int* const run = neighbours_.data();
+    return {run + neighbour_begins_[static_cast<std::size_t>(cell)],
+            run + neighbour_begins_[static_cast<std::size_t>(cell) + 1]};
   }
 
  private:
@@ -61,7 +63,8 @@ class PlaneCells {
   std::array<std::vector<int>, kLevels> run_begins_;  ///< Of each cell, and the end of the last.
   std::array<std::vector<int>, kLevels> runs_;
   std::vector<Key> neighbour_level_keys_;
-  std::vector<std::vector<int>> neighbours_;
+  std::vector<int> neighbour_begins_;  ///< Of each cell, and the end of the last.
+  std::vector<int> neighbours_;
 };
 
 }  // namespace mrpt_sgraphs

@@ -57,7 +57,8 @@ class Growth {
   void growFromLevel(int level) {
     std::vector<Seed> seeds;
     for (int cell = 0; cell < static_cast<int>(cells_.size(level)); ++cell) {
-      const auto sigma = seedQuality(scatterLeft(level, cell));
+      if (cells_.scatter(level, cell).count() < kMinSeedPoints) continue;
+      const double sigma = seedQuality(scatterLeft(level, cell));
       if (sigma < kMaxSeedNormalSigma) seeds.push_back({cell, sigma});
     }
     std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) {

@@ -19,8 +19,8 @@ namespace {
 /// Edge of the finest cells of space [m]: the two faces of most walls lie in different ones.
 constexpr double kFinest_m = 0.2;
 /// Extents are made of so many cells at the most, none smaller than the least edge.
-constexpr double kExtentCells = 2500.0;
-constexpr double kExtentCell_m = 0.1;
+constexpr double kExtentCells = 1500.0;
+constexpr double kExtentCell_m = 0.15;
 /// Beams are farther apart than these cells: gaps up to this say nothing of the surface [m].
 constexpr double kSampling_m = 0.5;
 /// A normal that is known worse belongs to a line of points [rad].

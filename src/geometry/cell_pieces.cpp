@@ -19,7 +19,7 @@ Cell operator+(Cell a, Cell b) { return {a.column + b.column, a.row + b.row}; }
 
 /// Moves all cells that hang together with `seed` from `open` to the result.
 CellSet taken(Cell seed, CellSet* open) {
-  CellSet part;
+  CellSet part(open->box());
   std::vector<Cell> stack{seed};
   open->remove(seed);
   while (!stack.empty()) {
