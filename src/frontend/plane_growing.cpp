@@ -105,6 +105,7 @@ class Growth {
     const bool thin = fit_.variance_m2.x() <= max_thickness_m_ * max_thickness_m_;
     if (total_.count() < min_points_ || !thin) return;
     const double sigma_m = std::sqrt(fit_.variance_m2.x());
+    if (isInClutter()) return;
     const int claim = isBent(sigma_m) ? kBent : static_cast<int>(regions_.size());
     for (const int cell : taken_) claims_[static_cast<std::size_t>(cell)] = claim;
     if (claim != kBent) regions_.push_back({fit_, sigma_m, taken_});
@@ -169,6 +170,9 @@ class Growth {
     return thickness2 < sigma2 * spread * spread;
   }
 
+  /// Whether too many points lie near the plane that are not on it.
+  bool isInClutter() const;
+
   /// Whether the cells' means follow a parabola and no plane: a pillar, a vault.
   bool isBent(double sigma_m) const;
 
@@ -185,6 +189,20 @@ class Growth {
   std::vector<int> taken_;  ///< ... with these cells so far.
   std::vector<int> queue_;
 };
+
+bool Growth::isInClutter() const {
+  constexpr double kNear_m = 0.2;
+  constexpr double kMinShare = 0.5;
+  double near = 0.0;
+  for (const int coarse : queue_) {
+    for (const int cell : cells_.finestIn(PlaneCells::kNeighbourLevel, coarse)) {
+      if (claims_[static_cast<std::size_t>(cell)] >= 0) continue;
+      const Scatter& scatter = cells_.scatter(0, cell);
+      if (std::abs(fit_.distance(scatter.mean())) < kNear_m) near += scatter.count();
+    }
+  }
+  return total_.count() < kMinShare * near;
+}
 
 bool Growth::isBent(double sigma_m) const {
   BendTest test(std::sqrt(fit_.variance_m2.y()), std::sqrt(fit_.variance_m2.z()));

@@ -91,6 +91,7 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
   attributes.stamp_s = keyframe.stamp_s;
   attributes.T_odom_base = keyframe.T_odom_base;
   attributes.cloud = keyframe.cloud;
+  attributes.planes = keyframe.planes;
   KeyframeOutcome outcome;
   outcome.id = graph.addKeyframe(graph.T_map_odom() * keyframe.T_odom_base, attributes);
   if (!before->keyframes.empty()) {
