@@ -10,6 +10,7 @@
 #include "mrpt_sgraphs/geometry/cell_outline.h"
 #include "mrpt_sgraphs/geometry/plane_covariance.h"
 #include "plane_cells.h"
+#include "plane_cuts.h"
 #include "plane_growing.h"
 #include "plane_points.h"
 
@@ -103,7 +104,14 @@ class Segmentation {
   std::vector<PlaneSegment> run() {
     const PlaneCells cells(points_.cloud, kFinest_m);
     const auto regions = growPlanes(cells, config_.max_thickness_m, config_.min_points);
-    for (PlanePoints& on_plane : pointsOnPlanes(points_, cells, regions)) takeParts(&on_plane);
+    std::vector<PlaneCandidate> candidates;
+    for (PlanePoints& on_plane : pointsOnPlanes(points_, cells, regions)) {
+      if (!hasEnough(on_plane)) continue;
+      const MeasuredPlane measured = measurePlane(&on_plane);
+      if (hasEnough(on_plane)) candidates.push_back({std::move(on_plane), measured});
+    }
+    cutAtCrossings(config_.min_points, &candidates);
+    for (const PlaneCandidate& candidate : candidates) takeParts(candidate);
     std::stable_sort(
         segments_.begin(), segments_.end(),
         [](const PlaneSegment& a, const PlaneSegment& b) { return a.area_m2 > b.area_m2; });
@@ -115,22 +123,20 @@ class Segmentation {
     return static_cast<int>(on_plane.indices.size()) >= config_.min_points;
   }
 
-  void takeParts(PlanePoints* on_plane) {
-    if (!hasEnough(*on_plane)) return;
-    const MeasuredPlane measured = measurePlane(on_plane);
-    if (!hasEnough(*on_plane)) return;
-    const Cover cover(on_plane->local);
+  void takeParts(const PlaneCandidate& candidate) {
+    if (!hasEnough(candidate.points)) return;
+    const Cover cover(candidate.points.local);
     const std::vector<CellSet> parts = cover.parts(config_.max_gap_m);
     for (const CellSet& part : parts) {
       if (cover.area_m2(part) < config_.min_area_m2) break;  // smaller ones follow
       if (parts.size() == 1) {
-        takeIfPlane(*on_plane, measured, part, cover);
+        takeIfPlane(candidate.points, candidate.measured, part, cover);
         return;
       }
-      PlanePoints inside = within(part, cover, *on_plane);
+      PlanePoints inside = within(part, cover, candidate.points);
       if (!hasEnough(inside)) continue;
-      const MeasuredPlane part_measured = measurePlane(&inside);
-      takeIfPlane(inside, part_measured, part, cover);
+      const MeasuredPlane measured = measurePlane(&inside);
+      takeIfPlane(inside, measured, part, cover);
     }
   }
 
