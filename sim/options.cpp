@@ -122,9 +122,9 @@ std::string usage() {
          "  --gait NAME        legged (default) or wheeled\n"
          "  --duration S       stops after S seconds, if the tour is longer\n"
          "  --rate HZ          sweeps per second (default 10)\n"
-         "  --rotate-deg A     turns the building and the walk in it by A degrees about the "
-         "origin,\n"
-         "                     in addition to the rotation_deg of the file\n"
+         "  --rotate-deg A     turns the building and the walk in it by A degrees about the\n"
+         "                     origin, in addition to the rotation_deg of the file. The robot\n"
+         "                     starts with the heading that it has without, and then turns\n"
          "  --help             shows this\n"
          "\n"
          "The bag has /points, /imu, /odom and /tf_static. Equal arguments give equal output.\n";

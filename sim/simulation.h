@@ -24,7 +24,7 @@ struct SimulationConfig {
   LidarModel lidar;
   Robot robot;
   uint64_t seed = 1;
-  double turn_rad = 0.0;  ///< Of the building and the walk in it, about the origin.
+  double turn_rad = 0.0;  ///< Of the building and the walk in it about the origin: see walkTour.
   double max_duration_s = std::numeric_limits<double>::infinity();  ///< Cuts the tour short.
 };
 

@@ -100,7 +100,8 @@ Trajectory walkTour(const Building& building, const Robot& robot, const MotionLi
                                   "' cannot climb");
     }
   }
-  return {turned(planMotion(route, plans, limits), turn_rad), robot};
+  const double start_turn_rad = std::remainder(turn_rad, 2.0 * M_PI);
+  return {turned(planMotion(route, plans, limits, start_turn_rad), turn_rad), robot};
 }
 
 }  // namespace mrpt_sgraphs::sim
