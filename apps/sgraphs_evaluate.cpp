@@ -22,7 +22,7 @@ constexpr const char* kUsage =
     "  sgraphs_evaluate --truth DIR|FILE.tum RUN [RUN ...] [options]\n"
     "\n"
     "  --truth PATH      a folder of sgraphs_simulate, or a trajectory in TUM format. A\n"
-    "                    building.json beside the trajectory is used for the map\n"
+    "                    building.json beside the trajectory is used for map and walls\n"
     "  RUN               a folder of sgraphs_offline, or a trajectory in TUM format. The first\n"
     "                    run is the baseline of the optimization times of the others\n"
     "  --max-dt S        poses farther apart in time are not of one scan (default 0.01)\n"

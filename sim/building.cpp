@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/building.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -15,8 +16,7 @@ namespace {
 
 constexpr double kRadPerDeg = M_PI / 180.0;
 
-/// Turns YAML into a Building. Points and headings pass through `turned`, so that nothing after it
-/// knows of the building's rotation.
+/// Turns YAML into a Building, in the building's own frame.
 class BuildingReader {
  public:
   explicit BuildingReader(const std::string& path)
@@ -26,13 +26,13 @@ class BuildingReader {
     const YamlMap top(parse(), file_, "building",
                       {"name", "rotation_deg", "storeys", "stairs", "tour"});
     building_.name = top.text("name");
-    building_.rotation_rad = top.number("rotation_deg", 0.0) * kRadPerDeg;
+    const double rotation_rad = top.number("rotation_deg", 0.0) * kRadPerDeg;
     for (const YAML::Node& node : top.list("storeys")) readStorey(node);
     if (building_.storeys.empty()) top.fail("field 'storeys' needs at least one storey");
     for (const YAML::Node& node : top.list("stairs")) readFlight(node);
     for (const YAML::Node& node : top.list("tour")) readTourStop(node);
     if (building_.tour.empty()) top.fail("field 'tour' needs at least one stop");
-    return std::move(building_);
+    return turned(std::move(building_), rotation_rad);
   }
 
  private:
@@ -47,17 +47,8 @@ class BuildingReader {
     }
   }
 
-  Eigen::Vector2d turned(const Eigen::Vector2d& p) const {
-    const Eigen::Vector2d x = direction(building_.rotation_rad);
-    return p.x() * x + p.y() * leftOf(x);
-  }
-  Polygon2 turned(const Polygon2& points) const {
-    Polygon2 result;
-    for (const Eigen::Vector2d& p : points) result.push_back(turned(p));
-    return result;
-  }
-  double heading(const YamlMap& map, const std::string& field) const {
-    return map.number(field, 0.0) * kRadPerDeg + building_.rotation_rad;
+  static double heading(const YamlMap& map, const std::string& field) {
+    return map.number(field, 0.0) * kRadPerDeg;
   }
 
   void readStorey(const YAML::Node& node) {
@@ -93,13 +84,13 @@ class BuildingReader {
       map.fail("needs either 'polygon' or 'rectangle'");
     }
     if (map.has("polygon")) {
-      room.outline = turned(map.points("polygon"));
+      room.outline = map.points("polygon");
     } else {
       const std::vector<double> r = map.numbers("rectangle", 4);  // x_min, y_min, x_max, y_max
       if (r[2] <= r[0] || r[3] <= r[1]) {
         map.fail("field 'rectangle' is [x_min, y_min, x_max, y_max]");
       }
-      room.outline = turned(Polygon2{{r[0], r[1]}, {r[2], r[1]}, {r[2], r[3]}, {r[0], r[3]}});
+      room.outline = {{r[0], r[1]}, {r[2], r[1]}, {r[2], r[3]}, {r[0], r[3]}};
     }
     building_.rooms.push_back(std::move(room));
   }
@@ -108,7 +99,7 @@ class BuildingReader {
     const YamlMap map(node, file_, "door", {"at", "width_m", "height_m"});
     Door door;
     door.storey = storey_;
-    door.at = turned(map.point("at"));
+    door.at = map.point("at");
     door.width_m = map.positive("width_m", 1.0);
     door.height_m = map.positive("height_m", 2.1);
     door.where = map.where();
@@ -119,7 +110,7 @@ class BuildingReader {
     const YamlMap map(node, file_, "window", {"at", "width_m", "sill_m", "height_m"});
     Window window;
     window.storey = storey_;
-    window.at = turned(map.point("at"));
+    window.at = map.point("at");
     window.width_m = map.positive("width_m");
     window.sill_m = map.positive("sill_m", 0.9);
     window.height_m = map.positive("height_m", 1.2);
@@ -139,7 +130,7 @@ class BuildingReader {
       map.fail("field 'kind' is '" + kind + "'; known are box, shelf, cabinet, table, scaffold");
     }
     piece.storey = storey_;
-    piece.at = turned(map.point("at"));
+    piece.at = map.point("at");
     piece.yaw_rad = heading(map, "yaw_deg");
     const std::vector<double> size = map.numbers("size_m", 3);
     for (size_t k = 0; k < 3; ++k) {
@@ -154,7 +145,7 @@ class BuildingReader {
     const YamlMap map(node, file_, "pillar", {"at", "radius_m", "size_m", "yaw_deg"});
     Pillar pillar;
     pillar.storey = storey_;
-    pillar.at = turned(map.point("at"));
+    pillar.at = map.point("at");
     pillar.yaw_rad = heading(map, "yaw_deg");
     if (map.has("radius_m") == map.has("size_m")) map.fail("needs either 'radius_m' or 'size_m'");
     if (map.has("radius_m")) {
@@ -169,8 +160,8 @@ class BuildingReader {
 
   void readPerson(const YAML::Node& node) {
     const YamlMap map(node, file_, "person", {"from", "to", "speed_m_s"});
-    building_.people.push_back({storey_, turned(map.point("from")), turned(map.point("to")),
-                                map.positive("speed_m_s", 1.0), map.where()});
+    building_.people.push_back(
+        {storey_, map.point("from"), map.point("to"), map.positive("speed_m_s", 1.0), map.where()});
   }
 
   void readFlight(const YAML::Node& node) {
@@ -179,7 +170,7 @@ class BuildingReader {
     Flight flight;
     flight.lower_storey = storeyNamed(map, "from");
     flight.upper_storey = storeyNamed(map, "to");
-    flight.foot = turned(map.point("foot"));
+    flight.foot = map.point("foot");
     flight.heading_rad = heading(map, "heading_deg");
     flight.width_m = map.positive("width_m", 1.2);
     flight.run_m = map.positive("run_m");
@@ -198,7 +189,7 @@ class BuildingReader {
       stop.where = map.where();
       stop.room = roomNamed(stop.where, map.text("room"));
       stop.pass_through = map.flag("pass_through", false);
-      if (map.has("at")) stop.points = turned(map.points("at"));
+      if (map.has("at")) stop.points = map.points("at");
     }
     building_.tour.push_back(std::move(stop));
   }
@@ -235,6 +226,33 @@ const char* toString(RoomKind kind) {
     default:
       return "room";
   }
+}
+
+Building turned(Building building, double angle_rad) {
+  const Eigen::Vector2d x = direction(angle_rad);
+  const auto turn = [&x](Eigen::Vector2d& p) { p = (p.x() * x + p.y() * leftOf(x)).eval(); };
+  building.rotation_rad += angle_rad;
+  for (Room& room : building.rooms) std::for_each(room.outline.begin(), room.outline.end(), turn);
+  for (Door& door : building.doors) turn(door.at);
+  for (Window& window : building.windows) turn(window.at);
+  for (Furniture& piece : building.furniture) {
+    turn(piece.at);
+    piece.yaw_rad += angle_rad;
+  }
+  for (Pillar& pillar : building.pillars) {
+    turn(pillar.at);
+    pillar.yaw_rad += angle_rad;
+  }
+  for (Person& person : building.people) {
+    turn(person.from);
+    turn(person.to);
+  }
+  for (Flight& flight : building.flights) {
+    turn(flight.foot);
+    flight.heading_rad += angle_rad;
+  }
+  for (TourStop& stop : building.tour) std::for_each(stop.points.begin(), stop.points.end(), turn);
+  return building;
 }
 
 Building loadBuilding(const std::string& file) {

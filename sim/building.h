@@ -137,6 +137,9 @@ struct Building {
   }
 };
 
+/// The building with everything in it turned about the origin.
+Building turned(Building building, double angle_rad);
+
 /// Reads a building file, finds the walls of its doors and windows, and checks that it can be
 /// built.
 /// @throws std::invalid_argument naming file, line and field.

@@ -29,16 +29,16 @@ int64_t Lidar::startOf_ns(int64_t index) const {
   return std::llround(static_cast<double>(index) / model_.rate_hz / kSecondsPerNs);
 }
 
-LidarScan Lidar::scan(int64_t index) {
+LidarScan Lidar::scan(int64_t index, SeenWalls* seen) {
   LidarScan scan;
   scan.start_ns = startOf_ns(index);
   scan.period_ns = startOf_ns(index + 1) - scan.start_ns;
   scan.returns.reserve(beams_.size() * static_cast<size_t>(model_.columns));
-  for (int column = 0; column < model_.columns; ++column) fireColumn(column, scan);
+  for (int column = 0; column < model_.columns; ++column) fireColumn(column, scan, seen);
   return scan;
 }
 
-void Lidar::fireColumn(int column, LidarScan& scan) {
+void Lidar::fireColumn(int column, LidarScan& scan, SeenWalls* seen) {
   const int64_t offset_ns = scan.period_ns * column / model_.columns;
   const double time_s = static_cast<double>(scan.start_ns + offset_ns) * kSecondsPerNs;
   const Pose T_map_base = trajectory_.T_map_base(time_s);
@@ -56,6 +56,7 @@ void Lidar::fireColumn(int column, LidarScan& scan) {
     const double cosine = std::abs(hit->normal.dot(ray.direction));
     if (cosine < kGrazingCosine && random_.uniform() > cosine / kGrazingCosine) continue;
     if (random_.uniform() < model_.dropout) continue;
+    if (seen != nullptr) seen->add(ray, *hit);
 
     const double range_m = hit->range_m + model_.noise_m * random_.gaussian();
     LidarReturn echo;

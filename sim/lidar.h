@@ -8,6 +8,7 @@
 #include "sim/lidar_model.h"
 #include "sim/random.h"
 #include "sim/scene.h"
+#include "sim/seen_walls.h"
 #include "sim/trajectory.h"
 
 namespace mrpt_sgraphs::sim {
@@ -38,13 +39,14 @@ class Lidar {
         const Trajectory& trajectory, uint64_t seed);
 
   /// The `index`-th sweep from the start of the run. Noise depends on the sweeps before.
-  LidarScan scan(int64_t index);
+  /// @param seen  Where not null, is told of every echo of a wall.
+  LidarScan scan(int64_t index, SeenWalls* seen = nullptr);
 
   /// The start of a sweep [ns]; rates need not divide a second.
   int64_t startOf_ns(int64_t index) const;
 
  private:
-  void fireColumn(int column, LidarScan& scan);
+  void fireColumn(int column, LidarScan& scan, SeenWalls* seen);
 
   LidarModel model_;
   Pose T_base_lidar_;

@@ -121,10 +121,14 @@ void easeSlopes(std::vector<MotionState>& states) {
 }  // namespace
 
 std::vector<MotionState> planMotion(const Route& route, const std::vector<FloorPlan>& plans,
-                                    const MotionLimits& limits) {
+                                    const MotionLimits& limits, double start_turn_rad) {
   const std::vector<Path> paths = roundCorners(route, plans, limits);
   Walk walk(limits);
-  walk.rest(paths.front().front().floor_map, paths.front().front().yaw_rad, limits.still_s);
+  const PathSample& start = paths.front().front();
+  walk.rest(start.floor_map, start.yaw_rad - start_turn_rad, limits.still_s);
+  if (start_turn_rad != 0.0) {
+    walk.turn(start.floor_map, start.yaw_rad - start_turn_rad, start.yaw_rad);
+  }
   for (size_t k = 0; k < paths.size(); ++k) {
     walk.along(paths[k]);
     if (k + 1 == paths.size()) break;

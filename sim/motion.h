@@ -32,8 +32,9 @@ constexpr double kMotionPeriod_s = 0.15;
 
 /// Walks the route: corners rounded as far as walls and furniture allow, else turned on the spot;
 /// speed limited by curvature and acceleration.
+/// @param start_turn_rad  By how much the robot turns to the left on the spot before it walks.
 /// @return One state every kMotionPeriod_s, from rest to rest.
 std::vector<MotionState> planMotion(const Route& route, const std::vector<FloorPlan>& plans,
-                                    const MotionLimits& limits);
+                                    const MotionLimits& limits, double start_turn_rad = 0.0);
 
 }  // namespace mrpt_sgraphs::sim

@@ -3,6 +3,7 @@
 #include "sim/options.h"
 
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <locale>
 #include <map>
@@ -18,7 +19,7 @@ class Arguments {
  public:
   Arguments(int argc, const char* const* argv) {
     static const std::set<std::string> known{"--building", "--sensor",   "--seed", "--out",
-                                             "--gait",     "--duration", "--rate"};
+                                             "--gait",     "--duration", "--rate", "--rotate-deg"};
     for (int k = 1; k < argc; k += 2) {
       const std::string option = argv[k];
       if (known.count(option) == 0) throw std::invalid_argument("unknown option '" + option + "'");
@@ -37,15 +38,23 @@ class Arguments {
     return found->second;
   }
 
-  double positive(const std::string& option) const {
+  double number(const std::string& option) const {
     const std::string value = text(option);
     std::istringstream stream(value);
     stream.imbue(std::locale::classic());
     double number = 0.0;
-    if (!(stream >> number) || stream.peek() != EOF || number <= 0.0) {
-      throw std::invalid_argument(option + " needs a positive number, not '" + value + "'");
+    if (!(stream >> number) || stream.peek() != EOF) {
+      throw std::invalid_argument(option + " needs a number, not '" + value + "'");
     }
     return number;
+  }
+
+  double positive(const std::string& option) const {
+    const double value = number(option);
+    if (value <= 0.0) {
+      throw std::invalid_argument(option + " needs a positive number, not '" + text(option) + "'");
+    }
+    return value;
   }
 
   uint64_t whole(const std::string& option) const {
@@ -90,6 +99,9 @@ Options parseOptions(int argc, const char* const* argv) {
       throw std::invalid_argument("--rate must not be above 100");
     }
   }
+  if (arguments.has("--rotate-deg")) {
+    options.simulation.turn_rad = arguments.number("--rotate-deg") * M_PI / 180.0;
+  }
   return options;
 }
 
@@ -110,6 +122,9 @@ std::string usage() {
          "  --gait NAME        legged (default) or wheeled\n"
          "  --duration S       stops after S seconds, if the tour is longer\n"
          "  --rate HZ          sweeps per second (default 10)\n"
+         "  --rotate-deg A     turns the building and the walk in it by A degrees about the\n"
+         "                     origin, in addition to the rotation_deg of the file. The robot\n"
+         "                     starts with the heading that it has without, and then turns\n"
          "  --help             shows this\n"
          "\n"
          "The bag has /points, /imu, /odom and /tf_static. Equal arguments give equal output.\n";

@@ -32,7 +32,7 @@ bool isItsExtent(const Polygon2& outline, const Eigen::AlignedBox2d& extent) {
 }  // namespace
 
 Patch::Patch(const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
-             Polygon2 outline, std::vector<Polygon2> holes, const Material& material)
+             Polygon2 outline, std::vector<Polygon2> holes, const Material& material, int face)
     : origin_(origin),
       u_(u),
       v_(v),
@@ -41,7 +41,8 @@ Patch::Patch(const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eige
       outline_(std::move(outline)),
       rectangular_(false),
       holes_(std::move(holes)),
-      material_(material) {
+      material_(material),
+      face_(face) {
   for (const Eigen::Vector2d& corner : outline_) extent_.extend(corner);
   rectangular_ = isItsExtent(outline_, extent_);
 }
@@ -58,7 +59,7 @@ bool Patch::intersect(const Ray& ray, Hit& hit) const {
   for (const Polygon2& hole : holes_) {
     if (contains(hole, point)) return false;
   }
-  hit = {range, normal_, material_};
+  hit = {range, normal_, material_, face_};
   return true;
 }
 
@@ -105,7 +106,7 @@ bool Box::intersect(const Ray& ray, Hit& hit) const {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   if (entered_axis == 0) normal << x_axis_, 0.0;
   if (entered_axis == 1) normal << leftOf(x_axis_), 0.0;
-  hit = {enter, normal, material_};
+  hit = {enter, normal, material_, kNoFace};
   return true;
 }
 
@@ -138,7 +139,7 @@ bool Cylinder::intersect(const Ray& ray, Hit& hit) const {
   if (z >= bottom_m_ && z <= top_m_) {
     if (side < kMinRange_m || side >= hit.range_m) return false;
     const Eigen::Vector2d out = (origin + side * heading) / radius_m_;
-    hit = {side, {out.x(), out.y(), 0.0}, material_};
+    hit = {side, {out.x(), out.y(), 0.0}, material_, kNoFace};
     return true;
   }
   // Past the mantle's end: the ray may still come in through a lid before it leaves the mantle.
@@ -146,7 +147,7 @@ bool Cylinder::intersect(const Ray& ray, Hit& hit) const {
   const double lid_m = z > top_m_ ? top_m_ : bottom_m_;
   const double lid = (lid_m - ray.origin.z()) / ray.direction.z();
   if (lid < side || lid > (-b + root) / a || lid >= hit.range_m) return false;
-  hit = {lid, Eigen::Vector3d::UnitZ(), material_};
+  hit = {lid, Eigen::Vector3d::UnitZ(), material_, kNoFace};
   return true;
 }
 

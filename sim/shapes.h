@@ -23,10 +23,13 @@ struct Material {
   bool returns = true;        ///< False for a window's pane: the ray is gone.
 };
 
+constexpr int kNoFace = -1;
+
 struct Hit {
   double range_m = 0.0;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Towards either side.
   Material material;
+  int face = kNoFace;  ///< Of the wall that was met: its index in wallFaces.
 };
 
 using Bounds = Eigen::AlignedBox3d;
@@ -35,8 +38,10 @@ using Bounds = Eigen::AlignedBox3d;
 class Patch {
  public:
   /// @param u, v  Orthonormal; outline and holes are coordinates along them from `origin`.
+  /// @param face  What its hits say.
   Patch(const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
-        Polygon2 outline, std::vector<Polygon2> holes, const Material& material);
+        Polygon2 outline, std::vector<Polygon2> holes, const Material& material,
+        int face = kNoFace);
 
   /// Shortens `hit` and returns true if the ray meets the patch before hit.range_m.
   bool intersect(const Ray& ray, Hit& hit) const;
@@ -50,6 +55,7 @@ class Patch {
   bool rectangular_;            ///< The outline is its extent.
   std::vector<Polygon2> holes_;
   Material material_;
+  int face_;
 };
 
 /// An upright box turned about the vertical.

@@ -8,15 +8,16 @@
 namespace mrpt_sgraphs::sim {
 
 Simulation::Simulation(const Building& building, const SimulationConfig& config)
-    : building_(building),
+    : building_(turned(building, config.turn_rad)),
       config_(config),
       scene_(building_),
-      trajectory_(walkTour(building_, config.robot)),
+      trajectory_(walkTour(building, config.robot, MotionLimits{}, config.turn_rad)),
       T_base_lidar_(config.robot.T_base_lidar(config.lidar.mount_pitch_deg * M_PI / 180.0)),
       end_ns_(std::llround(1e9 * std::min(config.max_duration_s, trajectory_.duration_s()))),
       lidar_(config.lidar, T_base_lidar_, scene_, trajectory_, config.seed),
       imu_(trajectory_, config.seed),
-      odometry_(trajectory_, config.seed) {
+      odometry_(trajectory_, config.seed),
+      seen_walls_(building_) {
   while (lidar_.startOf_ns(scan_count_ + 1) <= end_ns_) ++scan_count_;
 }
 
@@ -37,7 +38,7 @@ void Simulation::run(const MeasurementSink& sink) {
       sink.odometry(odometry_.next());
       ++odometry_index;
     } else {
-      sink.scan(lidar_.scan(scan_index++));
+      sink.scan(lidar_.scan(scan_index++, &seen_walls_));
     }
   }
 }

@@ -11,6 +11,7 @@
 #include "sim/odometry.h"
 #include "sim/robot.h"
 #include "sim/scene.h"
+#include "sim/seen_walls.h"
 #include "sim/trajectory.h"
 
 namespace mrpt_sgraphs::sim {
@@ -23,6 +24,7 @@ struct SimulationConfig {
   LidarModel lidar;
   Robot robot;
   uint64_t seed = 1;
+  double turn_rad = 0.0;  ///< Of the building and the walk in it about the origin: see walkTour.
   double max_duration_s = std::numeric_limits<double>::infinity();  ///< Cuts the tour short.
 };
 
@@ -36,6 +38,7 @@ struct MeasurementSink {
 /// A robot walks the tour of a building and measures. Equal arguments give equal measurements.
 class Simulation {
  public:
+  /// @param building  Before it is turned by config.turn_rad.
   /// @throws std::invalid_argument if the tour cannot be walked.
   Simulation(const Building& building, const SimulationConfig& config);
   Simulation(const Simulation&) = delete;  // the sensors refer to its trajectory
@@ -46,6 +49,7 @@ class Simulation {
 
   const Building& building() const { return building_; }
   const SimulationConfig& config() const { return config_; }
+  const SeenWalls& seenWalls() const { return seen_walls_; }  ///< In as much as was run.
   const Trajectory& trajectory() const { return trajectory_; }
   const Pose& T_base_lidar() const { return T_base_lidar_; }
   double duration_s() const { return 1e-9 * static_cast<double>(end_ns_); }
@@ -62,6 +66,7 @@ class Simulation {
   Lidar lidar_;
   Imu imu_;
   Odometry odometry_;
+  SeenWalls seen_walls_;
   int64_t scan_count_ = 0;  ///< Whole sweeps only.
 };
 

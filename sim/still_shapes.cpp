@@ -28,10 +28,12 @@ Polygon2 upright(double begin, double end, double bottom, double top) {
 
 /// A vertical rectangle over the line from a to b.
 Patch verticalPatch(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double bottom_m,
-                    double top_m, std::vector<Polygon2> holes, const Material& material) {
+                    double top_m, std::vector<Polygon2> holes, const Material& material,
+                    int face = kNoFace) {
   const Eigen::Vector2d along = (b - a).normalized();
   return Patch({a.x(), a.y(), bottom_m}, {along.x(), along.y(), 0.0}, Eigen::Vector3d::UnitZ(),
-               upright(0.0, (b - a).norm(), 0.0, top_m - bottom_m), std::move(holes), material);
+               upright(0.0, (b - a).norm(), 0.0, top_m - bottom_m), std::move(holes), material,
+               face);
 }
 
 Patch horizontalPatch(Polygon2 outline, double z_m, std::vector<Polygon2> holes,
@@ -45,7 +47,8 @@ class ShapeMaker {
   explicit ShapeMaker(const Building& building) : building_(building) {}
 
   std::vector<Shape> make() {
-    for (const WallFace& face : wallFaces(building_)) addWall(face);
+    const std::vector<WallFace> faces = wallFaces(building_);
+    for (size_t k = 0; k < faces.size(); ++k) addWall(faces[k], static_cast<int>(k));
     for (const Room& room : building_.rooms) addFloorAndCeiling(room);
     for (const Door& door : building_.doors) addPassage(door);
     for (const Furniture& piece : building_.furniture) addFurniture(piece);
@@ -55,7 +58,7 @@ class ShapeMaker {
   }
 
  private:
-  void addWall(const WallFace& face) {
+  void addWall(const WallFace& face, int index) {
     std::vector<Polygon2> holes;
     for (const FaceOpening& opening : face.openings) {
       holes.push_back(upright(opening.begin_m, opening.end_m, opening.bottom_m, opening.top_m));
@@ -66,7 +69,8 @@ class ShapeMaker {
                                          face.floor_m + opening.top_m, {}, kGlass));
     }
     shapes_.emplace_back(verticalPatch(face.first, face.second, face.floor_m,
-                                       face.floor_m + face.height_m, std::move(holes), kPlaster));
+                                       face.floor_m + face.height_m, std::move(holes), kPlaster,
+                                       index));
   }
 
   void addFloorAndCeiling(const Room& room) {

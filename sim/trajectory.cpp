@@ -27,6 +27,15 @@ std::vector<Eigen::Matrix<double, 6, 1>> controlPoints(const std::vector<MotionS
   return points;
 }
 
+std::vector<MotionState> turned(std::vector<MotionState> states, double angle_rad) {
+  const Eigen::Vector2d x = direction(angle_rad);
+  for (MotionState& state : states) {
+    state.floor_map.head<2>() = (state.floor_map.x() * x + state.floor_map.y() * leftOf(x)).eval();
+    state.yaw_rad += angle_rad;
+  }
+  return states;
+}
+
 Eigen::Matrix3d rotation(double yaw_rad, double pitch_rad, double roll_rad) {
   return (Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
           Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
@@ -79,7 +88,8 @@ Eigen::Vector3d Trajectory::acceleration_map(double time_s) const {
          (kStep_s * kStep_s);
 }
 
-Trajectory walkTour(const Building& building, const Robot& robot, const MotionLimits& limits) {
+Trajectory walkTour(const Building& building, const Robot& robot, const MotionLimits& limits,
+                    double turn_rad) {
   std::vector<FloorPlan> plans;
   for (size_t k = 0; k < building.storeys.size(); ++k) plans.emplace_back(building, k);
   const Route route = planTour(building, plans);
@@ -90,7 +100,8 @@ Trajectory walkTour(const Building& building, const Robot& robot, const MotionLi
                                   "' cannot climb");
     }
   }
-  return {planMotion(route, plans, limits), robot};
+  const double start_turn_rad = std::remainder(turn_rad, 2.0 * M_PI);
+  return {turned(planMotion(route, plans, limits, start_turn_rad), turn_rad), robot};
 }
 
 }  // namespace mrpt_sgraphs::sim

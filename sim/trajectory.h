@@ -32,8 +32,12 @@ class Trajectory {
 };
 
 /// Walks the tour of the building.
+/// @param turn_rad  The walk is turned by it about the origin, as the building will be. Ways are
+///                  found before, so that they do not depend on it. The robot's first heading is
+///                  not turned, and it begins by turning on the spot: were it turned with all the
+///                  rest, its sensors would measure the same whatever the angle.
 /// @throws std::invalid_argument if it cannot be walked, naming the place in the file.
 Trajectory walkTour(const Building& building, const Robot& robot,
-                    const MotionLimits& limits = MotionLimits{});
+                    const MotionLimits& limits = MotionLimits{}, double turn_rad = 0.0);
 
 }  // namespace mrpt_sgraphs::sim

@@ -107,7 +107,7 @@ Json roomsJson(const Simulation& simulation) {
   return rooms;
 }
 
-Json wallsJson(const Building& building) {
+Json wallsJson(const Building& building, const SeenWalls& seen) {
   const auto rectangleJson = [](const WallFace& face, double begin_m, double end_m, double bottom_m,
                                 double top_m) {
     return Json{toJson(face.at(begin_m, bottom_m)), toJson(face.at(end_m, bottom_m)),
@@ -126,7 +126,8 @@ Json wallsJson(const Building& building) {
                      {"normal", toJson({normal.x(), normal.y(), 0.0})},
                      {"distance", normal.dot(face.first)},
                      {"polygon", rectangleJson(face, 0.0, face.length_m(), 0.0, face.height_m)},
-                     {"holes", holes}});
+                     {"holes", holes},
+                     {"seen_m2", seen.area_m2(walls.size())}});
   }
   return walls;
 }
@@ -172,7 +173,7 @@ std::string buildingJson(const Simulation& simulation) {
                   {"T_base_lidar", toJson(simulation.T_base_lidar())},
                   {"floors", floorsJson(building)},
                   {"rooms", roomsJson(simulation)},
-                  {"walls", wallsJson(building)},
+                  {"walls", wallsJson(building, simulation.seenWalls())},
                   {"doors", doorsJson(building)}};
   constexpr int kIndent = 1;
   return json.dump(kIndent) + "\n";

@@ -16,7 +16,8 @@ std::string baseTrajectoryTum(const Simulation& simulation);
 /// Version 1 of building.json: floors, rooms, walls and doors.
 ///
 /// A wall is one face: `normal` points into its room, normal . p = `distance` on it, `polygon` is
-/// its outer extent and `holes` its doors and windows. A room is `entered` if the base was inside
+/// its outer extent and `holes` its doors and windows, `seen_m2` the part of it that the run so far
+/// has seen from near, in whole cells (SeenWalls). A room is `entered` if the base was inside
 /// its outline at the stamp of a scan.
 std::string buildingJson(const Simulation& simulation);
 

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mrpt_sgraphs/io/evaluation.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 
+#include "mrpt_sgraphs/io/graph_reader.h"
 #include "mrpt_sgraphs/io/pcd_reader.h"
 
 namespace mrpt_sgraphs {
@@ -32,6 +35,19 @@ TrajectoryErrors evaluateFile(const Truth& truth, const fs::path& file, double m
   }
 }
 
+void evaluateGraph(const Truth& truth, const fs::path& file, RunEvaluation* result) {
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error("cannot read '" + file.string() + "'");
+  const LayeredGraph graph = readGraphJson(stream, file.string());
+  result->surface_residuals = surfaceResiduals(graph);
+  const bool has_sides = std::any_of(truth.building.walls.begin(), truth.building.walls.end(),
+                                     [](const TrueWall& wall) { return wall.plane.has_value(); });
+  if (!has_sides) return;
+  const GraphSnapshotConstPtr snapshot = graph.snapshot();
+  const std::vector<WallNode> walls(snapshot->walls.begin(), snapshot->walls.end());
+  result->walls = evaluateWalls(truth.building.walls, walls, result->trajectory.T_truth_run);
+}
+
 }  // namespace
 
 Truth readTruth(const std::string& path) {
@@ -40,7 +56,7 @@ Truth readTruth(const std::string& path) {
   truth.path = file.string();
   truth.trajectory = readTum(file.string());
   const fs::path building = file.parent_path() / "building.json";
-  if (fs::exists(building)) truth.surfaces = readBuildingSurfaces(building.string());
+  if (fs::exists(building)) truth.building = readBuilding(building.string());
   return truth;
 }
 
@@ -58,9 +74,11 @@ RunEvaluation evaluateRun(const Truth& truth, const std::string& run, double max
   const fs::path odometry = folder / "odometry.tum";
   if (fs::exists(odometry)) result.odometry = evaluateFile(truth, odometry, max_dt_s);
   const fs::path map = folder / "map.pcd";
-  if (fs::exists(map) && !truth.surfaces.empty()) {
-    result.map = evaluateMap(truth.surfaces, readPcd(map.string()), result.trajectory.T_truth_run);
+  if (fs::exists(map) && !truth.building.surfaces.empty()) {
+    result.map =
+        evaluateMap(truth.building.surfaces, readPcd(map.string()), result.trajectory.T_truth_run);
   }
+  if (fs::exists(folder / "graph.json")) evaluateGraph(truth, folder / "graph.json", &result);
   const fs::path optimizations = folder / "optimizations.csv";
   if (fs::exists(optimizations)) {
     result.optimizations = readOptimizationTimes(optimizations.string());

@@ -62,6 +62,32 @@ Json toJson(const OptimizationTimes& times) {
   return {{"all", toJson(times.all)}, {"by_kind", by_kind}};
 }
 
+Json toJson(const WallErrors::Spread& s) { return {{"median", s.median}, {"p90", s.p90}}; }
+
+Json toJson(const WallErrors& e) {
+  return {{"found", e.found},
+          {"right", e.right},
+          {"precision", e.precision()},
+          {"true_walls", e.seen_is_known ? Json(e.true_walls) : Json(nullptr)},
+          {"found_true", e.seen_is_known ? Json(e.found_true) : Json(nullptr)},
+          {"recall", e.recall()},
+          {"duplicates", e.duplicates},
+          {"normal_deg", toJson(e.normal_deg)},
+          {"offset_m", toJson(e.offset_m)},
+          {"missed", e.missed},
+          {"wrong", e.wrong},
+          {"twice", e.twice}};
+}
+
+Json toJson(const ResidualStatistics& s) {
+  return {{"count", s.count}, {"mean_chi2", s.mean_chi2}, {"above_95", s.above_95}};
+}
+
+Json toJson(const SurfaceResiduals& r) {
+  return {{"wall_observation", toJson(r.wall_observation)},
+          {"ground_observation", toJson(r.ground_observation)}};
+}
+
 template <typename T>
 Json toJson(const std::optional<T>& value) {
   return value ? toJson(*value) : Json(nullptr);
@@ -76,6 +102,8 @@ std::string evaluationJson(const Truth& truth, const std::vector<RunEvaluation>&
                     {"trajectory", toJson(run.trajectory)},
                     {"odometry", toJson(run.odometry)},
                     {"map", toJson(run.map)},
+                    {"walls", toJson(run.walls)},
+                    {"surface_residuals", toJson(run.surface_residuals)},
                     {"optimizations", toJson(run.optimizations)},
                     {"reduction_percent", reductionPercent(run, runs.front())}});
   }

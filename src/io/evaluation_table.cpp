@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -92,6 +93,59 @@ std::string mapTable(const std::vector<RunEvaluation>& runs) {
   return layOut("Distance of the map's points to the nearest wall, floor or ceiling", rows, 1);
 }
 
+std::string count(bool known, std::size_t number) { return known ? std::to_string(number) : "-"; }
+
+/// " 3 7 12", or how many there are where they are too many to read.
+std::string idList(const std::vector<uint64_t>& ids) {
+  constexpr std::size_t kReadable = 20;
+  if (ids.size() > kReadable) return " " + std::to_string(ids.size());
+  std::string list;
+  for (const uint64_t id : ids) list += " " + std::to_string(id);
+  return list;
+}
+
+std::string wallTable(const std::vector<RunEvaluation>& runs) {
+  std::vector<Row> rows{{"run", "walls", "right", "precision", "to find", "found", "recall",
+                         "twice", "deg", "90 %", "m", "90 %"}};
+  std::string ids;
+  for (const RunEvaluation& run : runs) {
+    if (!run.walls) continue;
+    const WallErrors& e = *run.walls;
+    rows.push_back({run.name, std::to_string(e.found), std::to_string(e.right),
+                    text(e.precision(), 3), count(e.seen_is_known, e.true_walls),
+                    count(e.seen_is_known, e.found_true), text(e.recall(), 3),
+                    std::to_string(e.duplicates), text(e.normal_deg.median, 3),
+                    text(e.normal_deg.p90, 3), text(e.offset_m.median, kLengthDigits),
+                    text(e.offset_m.p90, kLengthDigits)});
+    if (!e.missed.empty()) ids += "  " + run.name + ": true walls missed" + idList(e.missed) + "\n";
+    if (!e.twice.empty()) ids += "  " + run.name + ": found twice" + idList(e.twice) + "\n";
+    if (!e.wrong.empty()) ids += "  " + run.name + ": walls wrong" + idList(e.wrong) + "\n";
+  }
+  const std::string table = layOut(
+      "Walls: how many of those found are there, and of those seen well enough are found;\n"
+      "median and 90 % of the error of the normal and of the offset",
+      rows, 1);
+  return ids.empty() ? table : table + ids + "\n";
+}
+
+std::string residualTable(const std::vector<RunEvaluation>& runs) {
+  std::vector<Row> rows{{"run", "of", "count", "mean", "above 95 %"}};
+  const auto addRow = [&](const std::string& run, const std::string& of,
+                          const ResidualStatistics& s) {
+    if (s.count == 0) return;
+    rows.push_back({run, of, std::to_string(s.count), text(s.mean_chi2, 3), text(s.above_95, 3)});
+  };
+  for (const RunEvaluation& run : runs) {
+    if (!run.surface_residuals) continue;
+    addRow(run.name, "wall_observation", run.surface_residuals->wall_observation);
+    addRow(run.name, "ground_observation", run.surface_residuals->ground_observation);
+  }
+  return layOut(
+      "Squared errors of the observed planes over their covariances (3 degrees of freedom), and\n"
+      "the share of them above the 95 % quantile",
+      rows, 2);
+}
+
 std::string timeTable(const std::vector<RunEvaluation>& runs) {
   std::vector<Row> rows{{"run", "kind", "count", "mean", "p50", "p95", "max", "reduction %"}};
   const auto addRow = [&](const std::string& run, const std::string& kind, const TimeStatistics& t,
@@ -113,7 +167,8 @@ std::string timeTable(const std::vector<RunEvaluation>& runs) {
 
 std::string evaluationTable(const Truth& truth, const std::vector<RunEvaluation>& runs) {
   return "Truth: " + truth.path + ", " + std::to_string(truth.trajectory.size()) + " poses\n\n" +
-         absoluteTable(runs) + relativeTable(runs) + mapTable(runs) + timeTable(runs);
+         absoluteTable(runs) + relativeTable(runs) + mapTable(runs) + wallTable(runs) +
+         residualTable(runs) + timeTable(runs);
 }
 
 }  // namespace mrpt_sgraphs

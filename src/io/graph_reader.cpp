@@ -26,12 +26,6 @@ std::optional<AnyId> idOrNull(const JsonPlace& place) {
   return AnyId{place.id()};
 }
 
-std::vector<Eigen::Vector3d> polygon(const JsonPlace& place) {
-  std::vector<Eigen::Vector3d> corners;
-  for (std::size_t k = 0; k < place.size(); ++k) corners.emplace_back(place[k].vector(3));
-  return corners;
-}
-
 RoomAttributes::Kind kindOf(const JsonPlace& place) {
   const std::string kind = place.string();
   if (kind == "four_walls") return RoomAttributes::Kind::kFourWalls;
@@ -55,10 +49,10 @@ void addKeyframe(const JsonPlace& place, LayeredGraph* graph) {
 
 void addWall(const JsonPlace& place, LayeredGraph* graph) {
   WallAttributes attributes;
-  attributes.extent_map.outline = polygon(place["polygon"]);
+  attributes.extent_map.outline = place["polygon"].outline();
   const JsonPlace holes = place["holes"];
   for (std::size_t k = 0; k < holes.size(); ++k) {
-    attributes.extent_map.holes.push_back(polygon(holes[k]));
+    attributes.extent_map.holes.push_back(holes[k].outline());
   }
   graph->restoreWall(WallId{place["id"].id()}, place["plane"].plane(), attributes);
 }
@@ -71,7 +65,7 @@ void addRoom(const JsonPlace& place, LayeredGraph* graph) {
   attributes.floor = idOrNull<FloorId>(place["floor"]);
   attributes.size_m = place["size"].vector(2);
   attributes.name = place["name"].string();
-  attributes.polygon_map = polygon(place["polygon"]);
+  attributes.polygon_map = place["polygon"].outline();
   graph->restoreRoom(RoomId{place["id"].id()}, place["pose"].pose(), attributes);
 }
 

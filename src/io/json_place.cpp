@@ -100,6 +100,12 @@ Eigen::Vector3d JsonPlace::unitVector() const {
   return v;
 }
 
+Outline3 JsonPlace::outline() const {
+  Outline3 corners;
+  for (std::size_t k = 0; k < size(); ++k) corners.emplace_back((*this)[k].vector(3));
+  return corners;
+}
+
 Pose JsonPlace::pose() const {
   const Eigen::VectorXd v = vector(7);
   Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "mrpt_sgraphs/geometry/ids.h"
+#include "mrpt_sgraphs/geometry/observed_plane.h"
 #include "mrpt_sgraphs/geometry/plane.h"
 
 namespace mrpt_sgraphs {
@@ -37,6 +38,7 @@ class JsonPlace {
 
   Eigen::VectorXd vector(Eigen::Index size) const;
   Eigen::Vector3d unitVector() const;
+  Outline3 outline() const;
   Pose pose() const;
   Plane plane() const;
   NodeId node() const;

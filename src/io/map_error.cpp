@@ -4,12 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "mrpt_sgraphs/io/statistics.h"
@@ -44,35 +40,6 @@ double distanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
   const double length2 = along.squaredNorm();
   const double s = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
   return (p - a - s * along).norm();
-}
-
-Outline3 outlineFrom(const nlohmann::json& json) {
-  Outline3 outline;
-  for (const nlohmann::json& corner : json) {
-    outline.emplace_back(corner.at(0).get<double>(), corner.at(1).get<double>(),
-                         corner.at(2).get<double>());
-  }
-  return outline;
-}
-
-std::vector<FlatSurface> surfacesFrom(const nlohmann::json& building) {
-  std::vector<FlatSurface> surfaces;
-  for (const nlohmann::json& wall : building.at("walls")) {
-    std::vector<Outline3> holes;
-    for (const nlohmann::json& hole : wall.value("holes", nlohmann::json::array())) {
-      holes.push_back(outlineFrom(hole));
-    }
-    surfaces.emplace_back(outlineFrom(wall.at("polygon")), holes);
-  }
-  for (const nlohmann::json& room : building.at("rooms")) {
-    Outline3 outline = outlineFrom(room.at("polygon"));
-    surfaces.emplace_back(outline, std::vector<Outline3>{});
-    if (!room.contains("height")) continue;
-    for (Eigen::Vector3d& corner : outline) corner.z() += room.at("height").get<double>();
-    surfaces.emplace_back(outline, std::vector<Outline3>{});
-  }
-  if (surfaces.empty()) throw std::runtime_error("it has no walls and no rooms");
-  return surfaces;
 }
 
 double distanceToNearest(const std::vector<FlatSurface>& surfaces, const Eigen::Vector3d& point) {
@@ -134,16 +101,6 @@ double FlatSurface::distance(const Eigen::Vector3d& point) const {
     edge_m = std::min(edge_m, distanceToSegment(p, a, b));
   });
   return inside ? std::abs(local.z()) : std::hypot(local.z(), edge_m);
-}
-
-std::vector<FlatSurface> readBuildingSurfaces(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot read '" + path + "': " + std::strerror(errno));
-  try {
-    return surfacesFrom(nlohmann::json::parse(file));
-  } catch (const std::exception& error) {
-    throw std::runtime_error("cannot read '" + path + "': " + error.what());
-  }
 }
 
 MapError evaluateMap(const std::vector<FlatSurface>& surfaces,

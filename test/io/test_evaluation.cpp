@@ -4,9 +4,13 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
+#include "graph_files.h"
+#include "mrpt_sgraphs/factors/plane_observation.h"
 #include "mrpt_sgraphs/io/evaluation.h"
+#include "mrpt_sgraphs/io/exports.h"
 #include "mrpt_sgraphs/io/statistics.h"
 #include "random_walk.h"
 #include "temporary_folder.h"
@@ -89,7 +93,7 @@ TEST_F(EvaluationTest, ReadsATruthFromItsFolderTheFolderAboveAndItsFile) {
   for (const char* path : {"sim", "sim/truth", "sim/truth/trajectory.tum"}) {
     const Truth truth = readTruth(folder_.file(path));
     EXPECT_EQ(truth.trajectory.size(), 200u) << path;
-    EXPECT_EQ(truth.surfaces.size(), 3u) << path;
+    EXPECT_EQ(truth.building.surfaces.size(), 3u) << path;
   }
   EXPECT_THROW(readTruth(folder_.path()), std::runtime_error);
   EXPECT_THROW(readTruth(folder_.file("nowhere")), std::runtime_error);
@@ -102,6 +106,81 @@ TEST_F(EvaluationTest, ComparesRunsWithTheTruthAndTheFirstRun) {
   EXPECT_NEAR(runs[1].map->median_m, 0.25, 0.02);  // the alignment of a noisy run moves it a little
   EXPECT_DOUBLE_EQ(reductionPercent(runs[0], runs[0]), 0.0);
   EXPECT_DOUBLE_EQ(reductionPercent(runs[1], runs[0]), 60.0);
+}
+
+/// The wall of kBuilding with its side, and a graph that has it 2 cm off and another that is not
+/// there.
+class WallEvaluationTest : public EvaluationTest {
+ protected:
+  WallEvaluationTest() {
+    folder_.write("sim/truth/building.json", test::with(kBuilding, R"({"polygon")", R"({"id": 4,
+      "normal": [0, 1, 0], "distance": 0, "seen_m2": 9.5, "polygon")"));
+    LayeredGraph graph;
+    const KeyframeId keyframe = graph.addKeyframe(Pose::Identity(), {});
+    const auto add = [&graph](double y) {
+      WallAttributes wall;
+      wall.extent_map.outline = {{0, y, 0}, {4, y, 0}, {4, y, 3}, {0, y, 3}};
+      return graph.addWall({Eigen::Vector3d::UnitY(), y}, wall);
+    };
+    const WallId wall = add(0.02);
+    add(2.0);
+    graph.addFactor(std::make_shared<PlaneObservationFactor>(
+        keyframe, wall, Plane{Eigen::Vector3d::UnitY(), 0.01},
+        Eigen::Vector3d(1.0, 1.0, 2e4).asDiagonal().toDenseMatrix()));
+    std::ostringstream json;
+    writeGraphJson(*graph.snapshot(), json);
+    folder_.write("baseline/graph.json", json.str());
+    writeTum(folder_.file("baseline/trajectory.tum"), test::walk(200));  // aligned as it is
+  }
+};
+
+TEST_F(WallEvaluationTest, JudgesTheWallsOfTheGraph) {
+  const Truth truth = readTruth(folder_.file("sim"));
+  const std::vector<RunEvaluation> runs = evaluate(truth);
+  EXPECT_FALSE(runs[1].walls || runs[1].surface_residuals);  // it has no graph.json
+  const nlohmann::json json = nlohmann::json::parse(evaluationJson(truth, runs)).at("runs");
+  const nlohmann::json& walls = json.at(0).at("walls");
+  EXPECT_EQ(walls.at("found"), 2);
+  EXPECT_EQ(walls.at("right"), 1);
+  EXPECT_EQ(walls.at("precision"), 0.5);
+  EXPECT_EQ(walls.at("true_walls"), 1);
+  EXPECT_EQ(walls.at("recall"), 1.0);
+  EXPECT_EQ(walls.at("wrong"), nlohmann::json({1}));
+  EXPECT_TRUE(walls.at("missed").empty());
+  EXPECT_NEAR(walls.at("offset_m").at("median").get<double>(), 0.02, 1e-6);
+  const nlohmann::json& residuals = json.at(0).at("surface_residuals");
+  EXPECT_EQ(residuals.at("wall_observation").at("count"), 1);
+  EXPECT_NEAR(residuals.at("wall_observation").at("mean_chi2").get<double>(), 2.0, 1e-9);
+  EXPECT_TRUE(residuals.at("ground_observation").at("mean_chi2").is_null());
+  EXPECT_TRUE(json.at(1).at("walls").is_null());
+  EXPECT_NE(evaluationTable(truth, runs).find("walls wrong 1\n"), std::string::npos);
+}
+
+TEST_F(WallEvaluationTest, WithoutWhatWasSeenThereIsNoRecall) {
+  const std::string with_seen = folder_.read("sim/truth/building.json");
+  folder_.write("sim/truth/building.json", test::with(with_seen, R"("seen_m2": 9.5,)", ""));
+  const Truth truth = readTruth(folder_.file("sim"));
+  const std::string json = evaluationJson(truth, evaluate(truth));
+  const nlohmann::json walls = nlohmann::json::parse(json).at("runs").at(0).at("walls");
+  EXPECT_TRUE(walls.at("recall").is_null());
+  EXPECT_TRUE(walls.at("true_walls").is_null());
+  EXPECT_EQ(walls.at("precision"), 0.5);
+}
+
+TEST_F(WallEvaluationTest, WithoutSidesThereIsNothingToCompareWith) {
+  folder_.write("sim/truth/building.json", kBuilding);
+  const RunEvaluation run =
+      evaluateRun(readTruth(folder_.file("sim")), folder_.file("baseline"), kMaxDt_s);
+  EXPECT_FALSE(run.walls.has_value());
+  EXPECT_TRUE(run.surface_residuals.has_value());
+}
+
+TEST_F(WallEvaluationTest, NamesAGraphThatItCannotRead) {
+  const std::string path = folder_.write("baseline/graph.json", "{}");
+  const Truth truth = readTruth(folder_.file("sim"));
+  const std::string message = messageOf<std::runtime_error>(
+      [&] { evaluateRun(truth, folder_.file("baseline"), kMaxDt_s); });
+  EXPECT_NE(message.find(path), std::string::npos) << message;
 }
 
 TEST_F(EvaluationTest, TakesATrajectoryFileForARun) {

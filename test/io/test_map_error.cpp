@@ -5,6 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "mrpt_sgraphs/io/building_file.h"
 #include "mrpt_sgraphs/io/map_error.h"
 #include "mrpt_sgraphs/io/pcd_reader.h"
 #include "random_walk.h"
@@ -66,7 +67,7 @@ TEST(MapError, ReadsWallsFloorsAndCeilingsOfABuilding) {
   const std::string path = folder.write("building.json", R"({
     "walls": [{"polygon": [[0,0,0],[4,0,0],[4,0,3],[0,0,3]], "holes": []}],
     "rooms": [{"polygon": [[0,0,0],[4,0,0],[4,4,0],[0,4,0]], "height": 3.0}]})");
-  const std::vector<FlatSurface> surfaces = readBuildingSurfaces(path);
+  const std::vector<FlatSurface> surfaces = readBuilding(path).surfaces;
   ASSERT_EQ(surfaces.size(), 3u);
   EXPECT_NEAR(surfaces[0].distance({2, 1, 1}), 1.0, 1e-12);
   EXPECT_NEAR(surfaces[1].distance({2, 2, 1}), 1.0, 1e-12);
@@ -78,7 +79,7 @@ TEST(MapError, NamesABuildingThatItCannotRead) {
   for (const char* text : {"not json", "{}", R"({"walls": [], "rooms": []})",
                            R"({"walls": [{"polygon": [[0, 0]]}], "rooms": []})"}) {
     const std::string path = folder.write("building.json", text);
-    EXPECT_NE(messageOf<std::runtime_error>([&] { readBuildingSurfaces(path); }).find(path),
+    EXPECT_NE(messageOf<std::runtime_error>([&] { readBuilding(path); }).find(path),
               std::string::npos)
         << text;
   }

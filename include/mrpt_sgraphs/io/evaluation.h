@@ -6,10 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "mrpt_sgraphs/io/building_file.h"
 #include "mrpt_sgraphs/io/map_error.h"
 #include "mrpt_sgraphs/io/optimization_times.h"
+#include "mrpt_sgraphs/io/surface_residuals.h"
 #include "mrpt_sgraphs/io/trajectory_error.h"
 #include "mrpt_sgraphs/io/tum.h"
+#include "mrpt_sgraphs/io/wall_error.h"
 
 namespace mrpt_sgraphs {
 
@@ -17,7 +20,7 @@ namespace mrpt_sgraphs {
 struct Truth {
   std::string path;  ///< Of the trajectory.
   Trajectory trajectory;
-  std::vector<FlatSurface> surfaces;  ///< Of the building.json beside it; none without one.
+  TrueBuilding building;  ///< Of the building.json beside it; empty without one.
 };
 
 /// Reads a truth: a .tum file, or a folder with trajectory.tum in it or in its folder truth.
@@ -30,6 +33,8 @@ struct RunEvaluation {
   TrajectoryErrors trajectory;
   std::optional<TrajectoryErrors> odometry;
   std::optional<MapError> map;
+  std::optional<WallErrors> walls;  ///< If the truth says to which side its walls look.
+  std::optional<SurfaceResiduals> surface_residuals;
   std::optional<OptimizationTimes> optimizations;
 };
 

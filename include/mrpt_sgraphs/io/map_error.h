@@ -4,22 +4,18 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <string>
 #include <vector>
 
+#include "mrpt_sgraphs/geometry/plane_frame.h"
 #include "mrpt_sgraphs/geometry/pose.h"
 
 namespace mrpt_sgraphs {
-
-/// Corners in order, the last joins the first; all in one plane.
-using Outline3 = std::vector<Eigen::Vector3d>;
 
 /// A flat piece of a building: a polygon with holes in it.
 class FlatSurface {
  public:
   /// @throws std::invalid_argument for an outline without an area, and for a hole of fewer than
-  /// three
-  ///         corners.
+  ///         three corners.
   FlatSurface(const Outline3& outline, const std::vector<Outline3>& holes);
 
   /// Never more than distance(point), and quickly found.
@@ -29,19 +25,12 @@ class FlatSurface {
   double distance(const Eigen::Vector3d& point) const;
 
  private:
-  using Outline2 = std::vector<Eigen::Vector2d>;
-
   Eigen::Vector3d origin_;
   Eigen::Matrix3d rotation_;     ///< Rows: two directions in the plane, its normal.
   std::vector<Outline2> loops_;  ///< The outline, then the holes, in the plane.
   Eigen::Vector3d box_min_;
   Eigen::Vector3d box_max_;
 };
-
-/// The walls of a building.json with their doors and windows cut out, and every room's floor and
-/// ceiling. Furniture, pillars and stairs are not in that file: a map of them counts as error.
-/// @throws std::runtime_error naming the file and what is wrong with it.
-std::vector<FlatSurface> readBuildingSurfaces(const std::string& path);
 
 /// How far the points of a map lie from the building.
 struct MapError {
