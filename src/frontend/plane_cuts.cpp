@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace mrpt_sgraphs {
 namespace {
@@ -21,16 +20,6 @@ constexpr double kMaxShareBehind = 0.15;
 constexpr int kEnough = 10;
 /// What crosses stands out from the plane by this: more than a pillar, a cabinet [m].
 constexpr double kMinReach_m = 1.0;
-
-/// Points of a plane are in front of what crosses it where `side` is positive [m].
-struct Crossing {
-  Eigen::Vector2f normal;
-  float distance = 0.0F;
-
-  float side(const Eigen::Vector3f& local) const {
-    return normal.dot(local.head<2>()) - distance;
-  }
-};
 
 /// A box about points, along u and v.
 struct Box {
@@ -55,25 +44,18 @@ struct Box {
   }
 };
 
-/// The line in which two planes meet, in the frame of the first.
-std::optional<Crossing> lineOf(const PlaneFrame& frame, const Plane& other) {
-  if (std::abs(frame.normal.dot(other.normal)) > kMaxCosine) return std::nullopt;
-  const Eigen::Vector2d direction(other.normal.dot(frame.u), other.normal.dot(frame.v));
-  const double length = direction.norm();
-  const double distance = other.distance - other.normal.dot(frame.origin);
-  return Crossing{(direction / length).cast<float>(), static_cast<float>(distance / length)};
-}
-
 /// Whether the plane begins in front of the crossing and does not go on behind it.
-bool endsAt(const Crossing& crossing, const std::vector<Eigen::Vector3f>& local, int min_points) {
+bool endsAt(const Crossing& crossing, const std::vector<Eigen::Vector3f>& local) {
+  constexpr std::size_t kSamples = 2000;
+  const std::size_t stride = local.size() / kSamples + 1;
   int in_front = 0, behind = 0, next_in_front = 0, next_behind = 0;
-  for (const Eigen::Vector3f& p : local) {
-    const float side = crossing.side(p);
+  for (std::size_t k = 0; k < local.size(); k += stride) {
+    const float side = crossing.side(local[k].head<2>());
     ++(side > 0.0F ? in_front : behind);
     const float far = std::abs(side);
     if (far > kNear_m && far < kFar_m) ++(side > 0.0F ? next_in_front : next_behind);
   }
-  return in_front >= min_points && behind >= min_points && next_in_front >= kEnough &&
+  return in_front >= kEnough && behind >= kEnough && next_in_front >= kEnough &&
          next_behind < kMaxShareBehind * next_in_front;
 }
 
@@ -86,8 +68,10 @@ bool standsOn(const Plane& plane, const PlanePoints& crossing) {
   const Eigen::Vector3f axis_local = axis.cast<float>();
   const float origin_m =
       static_cast<float>(plane.normal.dot(crossing.frame.origin) - plane.distance);
-  for (const Eigen::Vector3f& p : crossing.local) {
-    const float height_m = origin_m + axis_local.dot(p);
+  constexpr std::size_t kSamples = 500;
+  const std::size_t stride = crossing.local.size() / kSamples + 1;
+  for (std::size_t k = 0; k < crossing.local.size(); k += stride) {
+    const float height_m = origin_m + axis_local.dot(crossing.local[k]);
     if (height_m > kNear_m && height_m < kFoot_m) ++foot;
     if (height_m > kMinReach_m) ++beyond;
   }
@@ -99,7 +83,7 @@ PlanePoints takeBehind(const Crossing& crossing, PlanePoints* points) {
   PlanePoints behind{points->frame, points->sigma_m, {}, {}};
   std::size_t kept = 0;
   for (std::size_t k = 0; k < points->local.size(); ++k) {
-    if (crossing.side(points->local[k]) < 0.0F) {
+    if (crossing.side(points->local[k].head<2>()) < 0.0F) {
       behind.local.push_back(points->local[k]);
       behind.indices.push_back(points->indices[k]);
       continue;
@@ -115,17 +99,25 @@ PlanePoints takeBehind(const Crossing& crossing, PlanePoints* points) {
 
 }  // namespace
 
+std::optional<Crossing> crossingOf(const PlaneFrame& frame, const Plane& other) {
+  if (std::abs(frame.normal.dot(other.normal)) > kMaxCosine) return std::nullopt;
+  const Eigen::Vector2d direction(other.normal.dot(frame.u), other.normal.dot(frame.v));
+  const double length = direction.norm();
+  const double distance = other.distance - other.normal.dot(frame.origin);
+  return Crossing{(direction / length).cast<float>(), static_cast<float>(distance / length)};
+}
+
 void cutAtCrossings(int min_points, std::vector<PlaneCandidate>* planes) {
   // what was cut off comes at the end and is looked at in its turn
   for (std::size_t k = 0; k < planes->size(); ++k) {
     const Box box((*planes)[k].points.local);
     for (std::size_t other = 0; other < planes->size(); ++other) {
       const PlaneCandidate& crossing_plane = (*planes)[other];
-      const auto crossing = lineOf((*planes)[k].points.frame, crossing_plane.measured.plane);
+      const auto crossing = crossingOf((*planes)[k].points.frame, crossing_plane.measured.plane);
       if (!crossing || !box.isOnBothSides(*crossing)) continue;
       PlaneCandidate& plane = (*planes)[k];
       if (!standsOn(plane.measured.plane, crossing_plane.points) ||
-          !endsAt(*crossing, plane.points.local, min_points)) {
+          !endsAt(*crossing, plane.points.local)) {
         continue;
       }
       PlanePoints behind = takeBehind(*crossing, &plane.points);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "plane_points.h"
@@ -14,6 +15,18 @@ struct PlaneCandidate {
   PlanePoints points;
   MeasuredPlane measured;
 };
+
+/// The line in which another plane crosses, in a plane's frame: points are in front of the other
+/// where `side` is positive [m].
+struct Crossing {
+  Eigen::Vector2f normal;
+  float distance = 0.0F;
+
+  float side(const Eigen::Vector2f& local) const { return normal.dot(local) - distance; }
+};
+
+/// Nothing for planes that are nearly parallel.
+std::optional<Crossing> crossingOf(const PlaneFrame& frame, const Plane& other);
 
 /// Cuts planes where a wall crosses them. The walls of neighbouring rooms often lie in one line, and
 /// through open doors one sees several; only the wall between the rooms, which is thinner than most

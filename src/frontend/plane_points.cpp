@@ -156,9 +156,14 @@ std::vector<PlanePoints> pointsOnPlanes(const GatheredPoints& points, const Plan
     const Plane& plane = region.fit.plane;
     gates.push_back({plane.normal.cast<float>(), static_cast<float>(plane.distance),
                      static_cast<float>(gateOf(region.sigma_m))});
+    std::size_t expected = 0;
+    for (const int cell : region.cells) {
+      expected += static_cast<std::size_t>(cells.scatter(0, cell).count());
+    }
     for (const double side : {1.0, -1.0}) {
       const Plane seen{side * plane.normal, side * plane.distance};
       sides.push_back({PlaneFrame(seen, region.fit.centroid), region.sigma_m, {}, {}});
+      if (points.views.size() == 1) sides.back().indices.reserve(expected + expected / 4);
     }
   }
 

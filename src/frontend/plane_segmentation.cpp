@@ -44,7 +44,9 @@ struct Cover {
   Eigen::Vector2f corner{0.0F, 0.0F};  ///< Of the cell (0, 0), along u and v.
   CellSet cells;
 
-  explicit Cover(const std::vector<Eigen::Vector3f>& local) {
+  /// @param crossings  Other planes: the points of a ceiling that lie in a cabinet's plane are none of
+  ///                   its own.
+  Cover(const std::vector<Eigen::Vector3f>& local, const std::vector<Crossing>& crossings) {
     Eigen::Array2f low = local.front().head<2>();
     Eigen::Array2f high = low;
     for (const Eigen::Vector3f& p : local) {
@@ -56,13 +58,39 @@ struct Cover {
                       std::sqrt(static_cast<double>((high - low).prod()) / kExtentCells));
     cells = CellSet(CellBox{cellOf(low), cellOf(high)});
     for (const Eigen::Vector3f& p : local) cells.add(cellOf(p.head<2>()));
+    for (const Crossing& crossing : crossings) dropStrip(crossing);
     cells = withGapsClosed(cells, static_cast<int>(kSampling_m / cell_m));
   }
 
-  /// Of a point that is not below the corner: truncation is quick.
+  /// Drops the cells on a line that none lie beside.
+  void dropStrip(const Crossing& crossing) {
+    const float width = static_cast<float>(cell_m);
+    const CellBox& box = cells.box();
+    const Eigen::Vector2f size(static_cast<float>(box.columns()), static_cast<float>(box.rows()));
+    const Eigen::Vector2f half = 0.5F * width * size;
+    const float reach = crossing.normal.cwiseAbs().dot(half) + width;
+    if (std::abs(crossing.side(corner + half)) > reach) return;
+    std::vector<Cell> alone;
+    cells.forEach([&](Cell cell) {
+      const Eigen::Vector2f centre =
+          corner + width * Eigen::Vector2f(static_cast<float>(cell.column) + 0.5F,
+                                           static_cast<float>(cell.row) + 0.5F);
+      const float side = crossing.side(centre);
+      if (std::abs(side) > width) return;
+      const Eigen::Vector2f on_line = centre - side * crossing.normal;
+      for (const float steps : {-3.0F, -2.0F, 2.0F, 3.0F}) {
+        if (cells.contains(cellOf(on_line + steps * width * crossing.normal))) return;
+      }
+      alone.push_back(cell);
+    });
+    for (const Cell cell : alone) cells.remove(cell);
+  }
+
+  /// By truncation, which is quicker than floor().
   Cell cellOf(const Eigen::Vector2f& p) const {
-    const Eigen::Vector2f in_cells = (p - corner) / static_cast<float>(cell_m);
-    return {static_cast<int>(in_cells.x()), static_cast<int>(in_cells.y())};
+    constexpr int kShift = 1024;  // what is a little below it as well
+    const Eigen::Array2f in_cells = ((p - corner) / static_cast<float>(cell_m)).array() + kShift;
+    return {static_cast<int>(in_cells.x()) - kShift, static_cast<int>(in_cells.y()) - kShift};
   }
 
   /// Parts with gaps between them that are wider than `max_gap_m` along u or v, the largest first.
@@ -111,7 +139,14 @@ class Segmentation {
       if (hasEnough(on_plane)) candidates.push_back({std::move(on_plane), measured});
     }
     cutAtCrossings(config_.min_points, &candidates);
-    for (const PlaneCandidate& candidate : candidates) takeParts(candidate);
+    for (const PlaneCandidate& candidate : candidates) {
+      std::vector<Crossing> crossings;
+      for (const PlaneCandidate& other : candidates) {
+        const auto crossing = crossingOf(candidate.points.frame, other.measured.plane);
+        if (crossing) crossings.push_back(*crossing);
+      }
+      takeParts(candidate, crossings);
+    }
     std::stable_sort(
         segments_.begin(), segments_.end(),
         [](const PlaneSegment& a, const PlaneSegment& b) { return a.area_m2 > b.area_m2; });
@@ -123,9 +158,10 @@ class Segmentation {
     return static_cast<int>(on_plane.indices.size()) >= config_.min_points;
   }
 
-  void takeParts(const PlaneCandidate& candidate) {
+  void takeParts(const PlaneCandidate& candidate, const std::vector<Crossing>& crossings) {
     if (!hasEnough(candidate.points)) return;
-    const Cover cover(candidate.points.local);
+    const Cover cover(candidate.points.local, crossings);
+    if (cover.cells.empty()) return;
     const std::vector<CellSet> parts = cover.parts(config_.max_gap_m);
     for (const CellSet& part : parts) {
       if (cover.area_m2(part) < config_.min_area_m2) break;  // smaller ones follow
