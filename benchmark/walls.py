@@ -155,11 +155,13 @@ def run_variant(case, variant, arguments, programs):
     out = arguments.out / "runs" / case.name / variant.name
     out.mkdir(parents=True, exist_ok=True)
     command = [programs / "sgraphs_offline", "--bag", case.bag, "--points", case.topic, "--out", out,
-               "--quiet", *INPUTS[arguments.inputs]]
+               "--quiet"]
     if variant.params is not None:
         command += ["--params", variant.params]
-    if arguments.base_frame and case.building is not None:
-        command += ["--base-frame", arguments.base_frame]
+    if case.building is not None:
+        command += INPUTS[arguments.inputs]
+        if arguments.base_frame:
+            command += ["--base-frame", arguments.base_frame]
     run_program(command, out / "run.log")
     run_program([programs / "sgraphs_evaluate", "--truth", case.truth, out, "--json"],
                 out / "evaluation.json")
@@ -199,13 +201,10 @@ def mean(values):
 def table_row(group, variant, rows, reference_rows):
     """Means of runs. The ratio is of means over the seeds that both have."""
     means = {column: mean([row[column] for row in rows]) for column in SHOWN if column in MEASURED}
-    key = lambda row: (row["group"], row["seed"])
-    reference = {key(row): row["ate_m"] for row in reference_rows}
-    both = [row for row in rows if key(row) in reference]
-    means["ate_ratio"] = None
-    if both:
-        of_reference = mean([reference[key(row)] for row in both])
-        means["ate_ratio"] = mean([row["ate_m"] for row in both]) / of_reference
+    reference = {(row["group"], row["seed"]): row["ate_m"] for row in reference_rows}
+    both = [(row["ate_m"], reference[row["group"], row["seed"]])
+            for row in rows if (row["group"], row["seed"]) in reference]
+    means["ate_ratio"] = sum(a for a, _ in both) / sum(b for _, b in both) if both else None
     texts = {column: "-" if means[column] is None else f"{means[column]:.{digits}f}"
              for column, digits in SHOWN.items()}
     return {"set": group, "variant": variant, "runs": len(rows), **texts}
@@ -240,9 +239,10 @@ def parsed():
     parser.add_argument("--variant", action="append", default=[], metavar="NAME=FILE",
                         help="parameters to run with; NAME= for the defaults")
     parser.add_argument("--inputs", choices=sorted(INPUTS), default="none",
-                        help="what the runs are given beside the points")
+                        help="what runs of simulated bags are given beside the points")
     parser.add_argument("--base-frame", default=None,
-                        help="base_link: runs and truth are of the robot's base, not of the lidar")
+                        help="base_link: simulated runs and their truth are of the robot's base, not "
+                        "of the lidar")
     parser.add_argument("--jobs", type=int, default=2, help="bags at a time")
     parser.add_argument("--drop-bags", action="store_true", help="keep no simulated bag")
     parser.add_argument("--build", type=Path, default=HERE.parent / "build",
