@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mrpt_sgraphs/frontend/see_through.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace mrpt_sgraphs {
+namespace {
+
+/// A ray that ends nearer behind the plane may have ended on it [m].
+constexpr float kBehind_m = 0.3F;
+/// Nor do rays from nearer in front count: they graze it.
+constexpr float kInFront_m = 0.2F;
+/// Points of a scan that are looked at.
+constexpr std::size_t kSamples = 4000;
+
+/// An edge is open where a ray passed within these cells beyond it; the nearest may hold the edge
+/// itself.
+constexpr int kFirstBeyond = 2;
+constexpr int kLastBeyond = 6;
+
+/// Whether a ray passed beyond a cell in a direction.
+bool isPassed(const CellSet& passed, Cell edge, Cell step) {
+  for (int k = kFirstBeyond; k <= kLastBeyond; ++k) {
+    if (passed.contains({edge.column + k * step.column, edge.row + k * step.row})) return true;
+  }
+  return false;
+}
+
+/// The share of the lines along a direction whose last cell was passed beyond.
+template <typename LastCell>
+double openShare(int lines, const CellSet& passed, Cell step, const LastCell& lastCell) {
+  int there = 0;
+  int open = 0;
+  for (int line = 0; line < lines; ++line) {
+    const std::optional<Cell> last = lastCell(line);
+    if (!last) continue;
+    ++there;
+    if (isPassed(passed, *last, step)) ++open;
+  }
+  return there == 0 ? 0.0 : static_cast<double>(open) / there;
+}
+
+}  // namespace
+
+void SeeThrough::add(const Cloud& cloud_base, const Pose& T_map_base, const CellBox& around) {
+  const Eigen::Vector3d viewpoint_map =
+      T_map_base * Eigen::Vector3d(cloud_base.sensor_origin_.head<3>().cast<double>());
+  Eigen::Matrix3d R_frame_map;
+  R_frame_map << frame_.u.transpose(), frame_.v.transpose(), frame_.normal.transpose();
+  const Eigen::Vector3f viewpoint = (R_frame_map * (viewpoint_map - frame_.origin)).cast<float>();
+  if (viewpoint.z() < kInFront_m) return;
+  lowest_view_m_ = std::min(lowest_view_m_, static_cast<double>(viewpoint.y()));
+  const Eigen::Matrix3f R = (R_frame_map * T_map_base.linear()).cast<float>();
+  const Eigen::Vector3f t =
+      (R_frame_map * (T_map_base.translation() - frame_.origin)).cast<float>();
+  const std::size_t stride = cloud_base.size() / kSamples + 1;
+  for (std::size_t k = 0; k < cloud_base.size(); k += stride) {
+    const Eigen::Vector3f p = R * cloud_base[k].getVector3fMap() + t;
+    if (p.z() > -kBehind_m) continue;
+    const float share = viewpoint.z() / (viewpoint.z() - p.z());
+    const Eigen::Vector2f at = viewpoint.head<2>() + share * (p - viewpoint).head<2>();
+    const Cell cell = cellAt(at.cast<double>(), kCell_m);
+    if (around.contains(cell)) passed_.add(cell);
+  }
+}
+
+void SeeThrough::add(const SeeThrough& other) {
+  other.passed_.forEach([&](Cell cell) {
+    const Eigen::Vector2d centre((cell.column + 0.5) * kCell_m, (cell.row + 0.5) * kCell_m);
+    passed_.add(cellAt(frame_.flat(other.frame_.lifted(centre)), kCell_m));
+  });
+  const Eigen::Vector3d lowest_map = other.frame_.lifted({0.0, other.lowest_view_m_});
+  lowest_view_m_ = std::min(lowest_view_m_, frame_.flat(lowest_map).y());
+}
+
+SeeThrough::OpenEdges SeeThrough::openEdgesOf(const CellSet& seen) const {
+  OpenEdges edges;
+  if (seen.empty()) return edges;
+  const CellBox& box = seen.box();
+  edges.width_m = box.columns() * kCell_m;
+  edges.stands_low = box.min.row * kCell_m < lowest_view_m_;
+  edges.above = openShare(box.columns(), passed_, {0, 1}, [&](int line) -> std::optional<Cell> {
+    for (Cell cell{box.min.column + line, box.max.row}; cell.row >= box.min.row; --cell.row) {
+      if (seen.contains(cell)) return cell;
+    }
+    return std::nullopt;
+  });
+  edges.left = openShare(box.rows(), passed_, {-1, 0}, [&](int line) -> std::optional<Cell> {
+    for (Cell cell{box.min.column, box.min.row + line}; cell.column <= box.max.column;
+         ++cell.column) {
+      if (seen.contains(cell)) return cell;
+    }
+    return std::nullopt;
+  });
+  edges.right = openShare(box.rows(), passed_, {1, 0}, [&](int line) -> std::optional<Cell> {
+    for (Cell cell{box.max.column, box.min.row + line}; cell.column >= box.min.column;
+         --cell.column) {
+      if (seen.contains(cell)) return cell;
+    }
+    return std::nullopt;
+  });
+  return edges;
+}
+
+bool isFurniture(const SeeThrough::OpenEdges& edges) {
+  constexpr double kSeenOver = 0.5;
+  constexpr double kSeenPast = 0.3;
+  constexpr double kMaxPillar_m = 1.2;
+  if (edges.stands_low && edges.above >= kSeenOver) return true;
+  return edges.width_m <= kMaxPillar_m && edges.left >= kSeenPast && edges.right >= kSeenPast;
+}
+
+}  // namespace mrpt_sgraphs
