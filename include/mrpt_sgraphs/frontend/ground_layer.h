@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mrpt_sgraphs/frontend/ground_layer_config.h"
+#include "mrpt_sgraphs/frontend/way_to_newest.h"
+
+namespace mrpt_sgraphs {
+
+/// The ground of each level: a plane that holds height, roll and pitch of the keyframes on it.
+/// Keyframes on stairs and ramps have none.
+class GroundLayer {
+ public:
+  explicit GroundLayer(const GroundLayerConfig& config) : config_(config) {}
+
+  /// Takes the planes of the graph's last keyframe, once for each keyframe.
+  /// @return Whether the graph has new factors.
+  bool associate(const WayToNewest& way, LayeredGraph* graph);
+
+ private:
+  struct Level : SurfaceTrack {
+    std::optional<FloorId> id;  ///< None on probation.
+    double seen_at_m = 0.0;     ///< The way that the robot had gone.
+  };
+
+  /// The last ground, as its keyframe saw it.
+  struct LastGround {
+    Pose T_odom_base;
+    Plane plane_base;
+  };
+
+  std::optional<std::size_t> groundAmong(const ObservedPlanes& planes, const Pose& T_map_base,
+                                         const Pose& T_odom_base) const;
+  Level* levelOf(const ObservedPlane& ground, const WayToNewest& way, const LayeredGraph& graph);
+  void refreshPlanes(const LayeredGraph& graph);
+  void addFactor(SurfaceSighting* sighting, FloorId floor, LayeredGraph* graph) const;
+  void updateFloor(const Level& level, LayeredGraph* graph) const;
+
+  GroundLayerConfig config_;
+  std::vector<Level> levels_;
+  std::optional<LastGround> last_;
+};
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mrpt_sgraphs/factors/summed_observations.h"
+#include "mrpt_sgraphs/geometry/plane_covariance.h"
+#include "mrpt_sgraphs/graph/layered_graph.h"
+
+namespace mrpt_sgraphs {
+
+/// One of the planes of a keyframe, as a sight of some surface.
+struct SurfaceSighting {
+  KeyframeId keyframe;
+  std::size_t plane = 0;           ///< Among the keyframe's planes.
+  std::optional<FactorId> factor;  ///< None while the surface is on probation.
+  double way_sigma_m = 0.0;        ///< How uncertain the way was over which it was associated.
+};
+
+/// A plane with its distance from another origin: `n . (p - origin) = d`.
+inline Plane seenFromPoint(const Plane& plane, const Eigen::Vector3d& origin) {
+  return {plane.normal, plane.distance - plane.normal.dot(origin)};
+}
+
+/// Which keyframes see a surface how often does not matter here: how many do.
+/// @param sightings  Those of one keyframe lie together.
+int keyframesOf(const std::vector<SurfaceSighting>& sightings);
+
+/// Forgets sightings that the graph has lost, by keyframe or factor.
+void dropErased(const LayeredGraph& graph, std::vector<SurfaceSighting>* sightings);
+
+const ObservedPlane& observedBy(const SurfaceSighting& sighting, const LayeredGraph& graph);
+
+/// Whether it can be reasoned with: a unit normal, a covariance that is one, an outline.
+bool isSound(const ObservedPlane& plane);
+
+PlaneObservationFactor observationOf(KeyframeId keyframe, NodeId surface,
+                                     const ObservedPlane& plane, const RobustKernel& kernel = {});
+
+/// What sightings say on a surface while the keyframes stay where they are.
+ObservationSum summed(const std::vector<SurfaceSighting>& sightings, const Plane& near_map,
+                      const Eigen::Vector3d& anchor_map, const LayeredGraph& graph);
+
+/// The plane that fits a sum best.
+/// @param start_map  Not far from it.
+Plane fitted(const ObservationSum& sum, const Plane& start_map);
+
+/// What is known of a surface, on probation or in the graph.
+struct SurfaceTrack {
+  Plane plane_map;  ///< As the last optimization left it; on probation, the best fit.
+  std::vector<SurfaceSighting> sightings;                ///< By keyframe.
+  Eigen::Vector3d anchor_map = Eigen::Vector3d::Zero();  ///< On it, where it was first seen.
+  /// On (n, d), the anchor as origin, so that turns have no long lever. Of the normal itself and
+  /// not of its tangent, whose basis is another one after the smallest turn where a wall stands
+  /// upright.
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+};
+
+/// Of the plane's tangent, the anchor as origin.
+Eigen::Matrix3d covarianceOf(const SurfaceTrack& track, const SigmaFloor& floor);
+
+/// Anchor and information anew, from all sightings, and the plane that fits them best.
+void refit(const LayeredGraph& graph, SurfaceTrack* track);
+
+/// One more sighting, and the information with it; the plane stays.
+void addSighting(const SurfaceSighting& sighting, const LayeredGraph& graph, SurfaceTrack* track);
+
+/// The track as if it had been observed from a pose: with its own covariance, but no outline.
+/// @param point_map  Its centroid.
+ObservedPlane seenFrom(const Pose& T_map_base, const SurfaceTrack& track, const SigmaFloor& floor,
+                       const Eigen::Vector3d& point_map);
+
+/// The chi2 of an observed plane against a surface of the graph.
+struct SurfaceFit {
+  double chi2 = 0.0;  ///< 3 degrees of freedom.
+  /// chi2 + log det of its covariance. What is hardly known fits anything with a small chi2: of two
+  /// surfaces that fit, the more likely one is that of the smaller surprise.
+  double surprise = 0.0;
+  double offset_m = 0.0;     ///< Of the observed plane's centroid in front of the surface.
+  double way_sigma_m = 0.0;  ///< Of the offset, for the pose's part.
+};
+
+/// @param pose_covariance  Of the pose relative to what the surface is known from; right
+///                         perturbation.
+SurfaceFit fitOf(const ObservedPlane& observed, const Pose& T_map_base, const SurfaceTrack& track,
+                 const SigmaFloor& floor, const Matrix6& pose_covariance);
+
+/// The chi2 of two planes being one, known from the same place.
+double chi2Between(const Plane& a, const Eigen::Matrix3d& covariance_a, const Plane& b,
+                   const Eigen::Matrix3d& covariance_b);
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "mrpt_sgraphs/frontend/surface_sighting.h"
+#include "mrpt_sgraphs/frontend/wall_extent.h"
+
+namespace mrpt_sgraphs {
+
+/// The number of a track: in the order in which they began.
+using TrackNumber = uint64_t;
+
+/// One side of a wall, from its first sighting on: on probation, then a node of the graph.
+struct WallTrack : SurfaceTrack {
+  std::optional<WallId> id;  ///< None on probation.
+  WallExtent extent;
+  Eigen::AlignedBox3d box_map;  ///< Around the extent.
+  double seen_at_m = 0.0;       ///< The way that the robot had gone at the last sighting.
+  bool grown = true;            ///< Since it was last compared with the others.
+  std::optional<PlanarExtent> outline_map;  ///< Of the extent, on its grid; none after a change.
+  std::set<TrackNumber> apart;              ///< What was split from it: not to be merged again.
+};
+
+/// Everything anew from all sightings, but for the plane of a wall of the graph.
+void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track);
+
+/// One more sighting, and the extent with it.
+void extend(const SurfaceSighting& sighting, const LayeredGraph& graph, WallTrack* track);
+
+PlanarExtent operator*(const Pose& T_a_b, const PlanarExtent& extent_b);
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mrpt_sgraphs/frontend/ground_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace mrpt_sgraphs {
+namespace {
+
+/// Where the vertical of the map through the base's origin meets the plane, above it [m].
+double heightUnderBase(const Plane& plane_base, const Eigen::Vector3d& up_base) {
+  return plane_base.distance / plane_base.normal.dot(up_base);
+}
+
+}  // namespace
+
+std::optional<std::size_t> GroundLayer::groundAmong(const ObservedPlanes& planes,
+                                                    const Pose& T_map_base,
+                                                    const Pose& T_odom_base) const {
+  const Eigen::Vector3d up_base = T_map_base.linear().transpose() * Eigen::Vector3d::UnitZ();
+  std::vector<double> expected_m;
+  if (last_) {
+    // A robot that drives stands as high above the ground as before; one that is carried or gets up
+    // has the ground where odometry leaves it.
+    const Plane by_odometry = inverseTimes(T_odom_base, last_->T_odom_base * last_->plane_base);
+    expected_m = {last_->plane_base.distance, heightUnderBase(by_odometry, up_base)};
+  }
+  std::optional<std::size_t> ground;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const ObservedPlane& plane = planes[k];
+    if (plane.area_m2 < config_.min_area_m2 || !isSound(plane)) continue;
+    if (plane.plane_base.normal.dot(up_base) < std::cos(config_.max_tilt_rad)) continue;
+    const double height_m = heightUnderBase(plane.plane_base, up_base);
+    if (height_m > config_.max_step_m) continue;  // nothing to stand on
+    double off_m = last_ ? std::numeric_limits<double>::infinity() : height_m;
+    for (const double expected : expected_m) {
+      off_m = std::min(off_m, std::abs(height_m - expected));
+    }
+    if (last_ && off_m > config_.max_step_m) continue;
+    if (off_m >= least) continue;
+    least = off_m;
+    ground = k;
+  }
+  return ground;
+}
+
+GroundLayer::Level* GroundLayer::levelOf(const ObservedPlane& ground, const WayToNewest& way,
+                                         const LayeredGraph& graph) {
+  Level* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (Level& level : levels_) {
+    const SurfaceFit fit = fitOf(ground, graph.pose(way.newest()), level, config_.floor,
+                                 way.uncertaintyFrom(level.sightings, graph));
+    if (fit.chi2 > config_.max_chi2 || std::abs(fit.offset_m) > config_.max_offset_m) continue;
+    if (fit.surprise >= least) continue;
+    least = fit.surprise;
+    best = &level;
+  }
+  return best;
+}
+
+bool GroundLayer::associate(const WayToNewest& way, LayeredGraph* graph) {
+  const KeyframeId newest = way.newest();
+  const ObservedPlanesConstPtr planes = graph->attributes(newest).planes;
+  if (planes == nullptr) return false;
+  const Pose T_odom_base = graph->attributes(newest).T_odom_base;
+  const std::optional<std::size_t> index = groundAmong(*planes, graph->pose(newest), T_odom_base);
+  if (!index) return false;
+  const ObservedPlane& ground = (*planes)[*index];
+  last_ = LastGround{T_odom_base, ground.plane_base};
+
+  refreshPlanes(*graph);
+  SurfaceSighting sighting{newest, *index, {}, 0.0};
+  Level* level = levelOf(ground, way, *graph);
+  if (level == nullptr) {
+    levels_.emplace_back();
+    level = &levels_.back();
+    level->plane_map = graph->pose(newest) * ground.plane_base;
+    level->sightings = {sighting};
+    refit(*graph, level);
+  } else {
+    if (level->id) addFactor(&sighting, *level->id, graph);
+    addSighting(sighting, *graph, level);
+  }
+  level->seen_at_m = way.way_m();
+  if (!level->id && keyframesOf(level->sightings) >= config_.min_sightings) {
+    level->id = graph->addFloor(level->plane_map, {});
+    for (SurfaceSighting& other : level->sightings) addFactor(&other, *level->id, graph);
+  }
+  const bool changed = level->id.has_value();
+  if (changed) updateFloor(*level, graph);
+  levels_.erase(std::remove_if(levels_.begin(), levels_.end(),
+                               [&](const Level& other) {
+                                 return !other.id &&
+                                        way.way_m() - other.seen_at_m > config_.forget_after_m;
+                               }),
+                levels_.end());
+  return changed;
+}
+
+void GroundLayer::refreshPlanes(const LayeredGraph& graph) {
+  for (Level& level : levels_) dropErased(graph, &level.sightings);
+  const auto is_gone = [&graph](const Level& level) {
+    return level.sightings.empty() || (level.id && !graph.contains(*level.id));
+  };
+  levels_.erase(std::remove_if(levels_.begin(), levels_.end(), is_gone), levels_.end());
+  for (Level& level : levels_) {
+    if (level.id) {
+      level.plane_map = graph.plane(*level.id);
+    } else {
+      refit(graph, &level);
+    }
+  }
+}
+
+void GroundLayer::addFactor(SurfaceSighting* sighting, FloorId floor, LayeredGraph* graph) const {
+  const RobustKernel doubt{RobustKernel::Kind::kHuber, config_.kernel_chi2};
+  sighting->factor = graph->addFactor(std::make_shared<PlaneObservationFactor>(
+      observationOf(sighting->keyframe, floor, observedBy(*sighting, *graph), doubt)));
+  KeyframeAttributes attributes = graph->attributes(sighting->keyframe);
+  attributes.floor = floor;
+  graph->setAttributes(sighting->keyframe, attributes);
+}
+
+void GroundLayer::updateFloor(const Level& level, LayeredGraph* graph) const {
+  Eigen::Vector3d centre_map = Eigen::Vector3d::Zero();
+  for (const SurfaceSighting& sighting : level.sightings) {
+    centre_map +=
+        graph->pose(sighting.keyframe).translation() / static_cast<double>(level.sightings.size());
+  }
+  const Plane ground_map = graph->plane(*level.id);
+  centre_map -= (ground_map.normal.dot(centre_map) - ground_map.distance) * ground_map.normal;
+  FloorAttributes attributes = graph->attributes(*level.id);
+  attributes.centre_map = centre_map;
+  graph->setAttributes(*level.id, attributes);
+}
+
+}  // namespace mrpt_sgraphs

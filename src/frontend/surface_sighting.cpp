@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mrpt_sgraphs/frontend/surface_sighting.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace mrpt_sgraphs {
+
+int keyframesOf(const std::vector<SurfaceSighting>& sightings) {
+  int count = 0;
+  for (std::size_t k = 0; k < sightings.size(); ++k) {
+    if (k == 0 || sightings[k].keyframe != sightings[k - 1].keyframe) ++count;
+  }
+  return count;
+}
+
+void dropErased(const LayeredGraph& graph, std::vector<SurfaceSighting>* sightings) {
+  const auto is_gone = [&graph](const SurfaceSighting& sighting) {
+    return !graph.contains(sighting.keyframe) ||
+           (sighting.factor && !graph.contains(*sighting.factor));
+  };
+  sightings->erase(std::remove_if(sightings->begin(), sightings->end(), is_gone), sightings->end());
+}
+
+const ObservedPlane& observedBy(const SurfaceSighting& sighting, const LayeredGraph& graph) {
+  return graph.attributes(sighting.keyframe).planes->at(sighting.plane);
+}
+
+bool isSound(const ObservedPlane& plane) {
+  constexpr double kMaxError = 1e-6;
+  if (!(std::abs(plane.plane_base.normal.norm() - 1.0) < kMaxError)) return false;
+  if (!std::isfinite(plane.plane_base.distance) || !plane.centroid_base.allFinite()) return false;
+  for (const Eigen::Vector3d& corner : plane.extent_base.outline) {
+    if (!corner.allFinite()) return false;
+  }
+  return plane.extent_base.outline.size() >= 3 && plane.covariance.allFinite() &&
+         plane.covariance.llt().info() == Eigen::Success;
+}
+
+PlaneObservationFactor observationOf(KeyframeId keyframe, NodeId surface,
+                                     const ObservedPlane& plane, const RobustKernel& kernel) {
+  const Eigen::Matrix3d information = plane.covariance.inverse();
+  return {keyframe, surface, plane.plane_base, 0.5 * (information + information.transpose()),
+          kernel};
+}
+
+ObservationSum summed(const std::vector<SurfaceSighting>& sightings, const Plane& near_map,
+                      const Eigen::Vector3d& anchor_map, const LayeredGraph& graph) {
+  ObservationSum sum(near_map, anchor_map);
+  for (const SurfaceSighting& sighting : sightings) {
+    const ObservedPlane& observed = observedBy(sighting, graph);
+    sum.add(observationOf(sighting.keyframe, WallId{}, observed), graph.pose(sighting.keyframe));
+  }
+  return sum;
+}
+
+Plane fitted(const ObservationSum& sum, const Plane& start_map) {
+  const Eigen::Vector3d& anchor = sum.point_map;
+  ObservationSum at_anchor = sum;
+  at_anchor.point_map.setZero();
+  const SummedObservationsFactor factor(WallId{}, at_anchor);
+  Plane plane = seenFromPoint(start_map, anchor);
+  constexpr int kIterations = 4;  // nearly linear: two do
+  for (int k = 0; k < kIterations; ++k) {
+    const VariableView value(plane);
+    Eigen::Matrix3d H;
+    Eigen::Vector3d g;
+    factor.linearize(&value, H.data(), g.data());
+    plane = retract(plane, -H.selfadjointView<Eigen::Lower>().ldlt().solve(g));
+  }
+  return seenFromPoint(plane, -anchor);
+}
+
+Eigen::Matrix3d covarianceOf(const SurfaceTrack& track, const SigmaFloor& floor) {
+  Eigen::Matrix<double, 4, 3> J = Eigen::Matrix<double, 4, 3>::Zero();
+  J.topLeftCorner<3, 2>() = tangentBasis(track.plane_map.normal);
+  J(3, 2) = 1.0;
+  const Eigen::Matrix3d information = J.transpose() * track.information * J;
+  Eigen::Matrix3d covariance = information.inverse();
+  covariance.diagonal() +=
+      Eigen::Vector3d(floor.rad * floor.rad, floor.rad * floor.rad, floor.m * floor.m);
+  return covariance;
+}
+
+void refit(const LayeredGraph& graph, SurfaceTrack* track) {
+  const SurfaceSighting& first = track->sightings.front();
+  track->anchor_map = graph.pose(first.keyframe) * observedBy(first, graph).centroid_base;
+  const ObservationSum sum = summed(track->sightings, track->plane_map, track->anchor_map, graph);
+  track->information = sum.A;
+  track->plane_map = fitted(sum, track->plane_map);
+}
+
+void addSighting(const SurfaceSighting& sighting, const LayeredGraph& graph, SurfaceTrack* track) {
+  track->sightings.push_back(sighting);
+  track->information += summed({sighting}, track->plane_map, track->anchor_map, graph).A;
+}
+
+ObservedPlane seenFrom(const Pose& T_map_base, const SurfaceTrack& track, const SigmaFloor& floor,
+                       const Eigen::Vector3d& point_map) {
+  const Pose T_base_anchor = T_map_base.inverse() * Pose(Eigen::Translation3d(track.anchor_map));
+  ObservedPlane seen;
+  seen.plane_base = inverseTimes(T_map_base, track.plane_map);
+  seen.covariance = transported(covarianceOf(track, floor), T_base_anchor,
+                                seenFromPoint(track.plane_map, track.anchor_map));
+  seen.centroid_base = T_map_base.inverse() * point_map;
+  return seen;
+}
+
+SurfaceFit fitOf(const ObservedPlane& observed, const Pose& T_map_base, const SurfaceTrack& track,
+                 const SigmaFloor& floor, const Matrix6& pose_covariance) {
+  Pose T_anchor_base = T_map_base;
+  T_anchor_base.translation() -= track.anchor_map;
+  Eigen::Matrix<double, 3, 6> J_pose;
+  Eigen::Matrix3d J_surface;
+  const Eigen::Vector3d e =
+      planeResidual(observed.plane_base, tangentBasis(observed.plane_base.normal), T_anchor_base,
+                    seenFromPoint(track.plane_map, track.anchor_map), &J_pose, &J_surface);
+  const Eigen::Matrix3d S = observed.covariance +
+                            J_surface * covarianceOf(track, floor) * J_surface.transpose() +
+                            J_pose * pose_covariance * J_pose.transpose();
+  const Plane surface_base = inverseTimes(T_map_base, track.plane_map);
+  SurfaceFit fit;
+  fit.chi2 = e.dot(S.ldlt().solve(e));
+  fit.surprise = fit.chi2 + std::log(S.determinant());
+  fit.offset_m = surface_base.normal.dot(observed.centroid_base) - surface_base.distance;
+  // at the centroid, and not at the base's origin
+  const Eigen::Matrix3d by_way = J_pose * pose_covariance * J_pose.transpose();
+  const Eigen::Matrix3d to_centroid =
+      tangentFromPoint(observed.plane_base, -observed.centroid_base);
+  fit.way_sigma_m = std::sqrt((to_centroid * by_way * to_centroid.transpose())(2, 2));
+  return fit;
+}
+
+double chi2Between(const Plane& a, const Eigen::Matrix3d& covariance_a, const Plane& b,
+                   const Eigen::Matrix3d& covariance_b) {
+  Eigen::Matrix3d J_b;
+  const Eigen::Vector3d e =
+      planeResidual(a, tangentBasis(a.normal), Pose::Identity(), b, nullptr, &J_b);
+  const Eigen::Matrix3d S = covariance_a + J_b * covariance_b * J_b.transpose();
+  return e.dot(S.ldlt().solve(e));
+}
+
+}  // namespace mrpt_sgraphs

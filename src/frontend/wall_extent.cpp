@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mrpt_sgraphs/frontend/wall_extent.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+bool isSameGrid(const PlaneFrame& a, const PlaneFrame& b) {
+  return a.origin == b.origin && a.u == b.u && a.v == b.v;
+}
+
+}  // namespace
+
+WallExtent WallExtent::drawn(const PlanarExtent& extent_map) const {
+  WallExtent result;
+  result.frame_ = frame_;
+  result.cell_m_ = cell_m_;
+  result.cells_ = rasterized(flattened(extent_map, frame_), cell_m_);
+  return result;
+}
+
+void WallExtent::add(const WallExtent& other) { cells_.add(other.onGridOf(*this)); }
+
+std::vector<Eigen::Vector3d> WallExtent::corners_map() const {
+  const CellBox& box = cells_.box();
+  std::vector<Eigen::Vector3d> corners;
+  for (const int column : {box.min.column, box.max.column + 1}) {
+    for (const int row : {box.min.row, box.max.row + 1}) {
+      corners.push_back(frame_.lifted(Eigen::Vector2d(column, row) * cell_m_));
+    }
+  }
+  return corners;
+}
+
+Eigen::Vector3d WallExtent::centre_map() const {
+  const std::vector<Eigen::Vector3d> corners = corners_map();
+  return 0.5 * (corners.front() + corners.back());
+}
+
+Eigen::AlignedBox3d WallExtent::box_map() const {
+  Eigen::AlignedBox3d box;
+  if (empty()) return box;
+  for (const Eigen::Vector3d& corner : corners_map()) box.extend(corner);
+  return box;
+}
+
+CellSet WallExtent::onGridOf(const WallExtent& other) const {
+  if (empty() || isSameGrid(frame_, other.frame_)) return cells_;
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector3d& corner : corners_map()) box.extend(other.frame_.flat(corner));
+  const Cell last = cellAt(box.max(), other.cell_m_);
+  CellSet cells(CellBox{cellAt(box.min(), other.cell_m_), last});
+  // Each cell of the new grid looks up the old one: the other way round, a turned grid has holes.
+  for (Cell cell = cellAt(box.min(), other.cell_m_); cell.row <= last.row; ++cell.row) {
+    for (cell.column = cellAt(box.min(), other.cell_m_).column; cell.column <= last.column;
+         ++cell.column) {
+      const Eigen::Vector2d centre =
+          Eigen::Vector2d(cell.column + 0.5, cell.row + 0.5) * other.cell_m_;
+      if (cells_.contains(cellAt(frame_.flat(other.frame_.lifted(centre)), cell_m_))) {
+        cells.add(cell);
+      }
+    }
+  }
+  return cells;
+}
+
+double WallExtent::sharedArea_m2(const WallExtent& other) const {
+  return static_cast<double>(sharedSize(cells_, other.onGridOf(*this))) * cell_m_ * cell_m_;
+}
+
+std::optional<double> WallExtent::gap_m(const WallExtent& other) const {
+  const std::optional<int> gap = gapAlongRows(cells_, other.onGridOf(*this));
+  if (!gap) return std::nullopt;
+  return *gap * cell_m_;
+}
+
+std::vector<WallExtent> WallExtent::pieces(double max_gap_m) const {
+  std::vector<WallExtent> result;
+  for (CellSet& cells : mrpt_sgraphs::pieces(cells_, max_gap_m / cell_m_)) {
+    result.push_back(*this);
+    result.back().cells_ = std::move(cells);
+  }
+  return result;
+}
+
+PlanarExtent WallExtent::outline_map(double max_gap_m) const {
+  CellOutlineConfig config;
+  config.cell_m = cell_m_;
+  config.max_gap_m = max_gap_m;
+  return lifted(outlineOf(cells_, config), frame_);
+}
+
+PlanarExtent dropped(PlanarExtent extent, const Plane& plane) {
+  const auto drop = [&plane](Outline3* ring) {
+    for (Eigen::Vector3d& corner : *ring) {
+      corner -= (plane.normal.dot(corner) - plane.distance) * plane.normal;
+    }
+  };
+  drop(&extent.outline);
+  for (Outline3& hole : extent.holes) drop(&hole);
+  return extent;
+}
+
+}  // namespace mrpt_sgraphs

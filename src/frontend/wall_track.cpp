@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mrpt_sgraphs/frontend/wall_track.h"
+
+namespace mrpt_sgraphs {
+
+PlanarExtent operator*(const Pose& T_a_b, const PlanarExtent& extent_b) {
+  PlanarExtent extent_a = extent_b;
+  for (Eigen::Vector3d& corner : extent_a.outline) corner = T_a_b * corner;
+  for (Outline3& hole : extent_a.holes) {
+    for (Eigen::Vector3d& corner : hole) corner = T_a_b * corner;
+  }
+  return extent_a;
+}
+
+void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track) {
+  if (track->sightings.empty()) return;  // nothing is left to draw it from
+  refit(graph, track);
+  if (track->id) track->plane_map = graph.plane(*track->id);
+  track->extent = WallExtent(track->plane_map, track->anchor_map, cell_m);
+  for (const SurfaceSighting& sighting : track->sightings) {
+    track->extent.add(graph.pose(sighting.keyframe) * observedBy(sighting, graph).extent_base);
+  }
+  track->box_map = track->extent.box_map();
+  track->outline_map.reset();
+  track->grown = true;
+}
+
+void extend(const SurfaceSighting& sighting, const LayeredGraph& graph, WallTrack* track) {
+  addSighting(sighting, graph, track);
+  const double area_m2 = track->extent.area_m2();
+  track->extent.add(graph.pose(sighting.keyframe) * observedBy(sighting, graph).extent_base);
+  track->grown = true;
+  if (track->extent.area_m2() == area_m2) return;  // nothing new of it
+  track->box_map = track->extent.box_map();
+  track->outline_map.reset();
+}
+
+}  // namespace mrpt_sgraphs
