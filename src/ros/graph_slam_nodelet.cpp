@@ -43,7 +43,7 @@ std::string rescueFolder(double last_stamp_s) {
 ///             scan_odometry    (mrpt_sgraphs/ScanOdometry)     for the trajectory of every scan
 /// Publishes   see GraphPublisher and DisplayPublisher
 /// Serves      see GraphServices
-/// Parameters  loop_closure/*, solver/*, and for the record of a run all of SlamConfig
+/// Parameters  loop_closure/*, walls/*, ground/*, solver/*, and for the record of a run all of SlamConfig
 ///             frames/map, frames/odom                          FramesConfig
 class GraphSlamNodelet final : public PipelineNodelet {
  private:

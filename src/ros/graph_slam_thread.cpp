@@ -18,7 +18,7 @@ namespace mrpt_sgraphs {
 
 /// All that was made of one run of the sensor: until its time starts again.
 struct GraphSlamThread::Session {
-  explicit Session(const SlamConfig& config) : slam(config.loop_closure, config.solver) {}
+  explicit Session(const SlamConfig& config) : slam(config) {}
 
   GraphSlam slam;
   ScanTrajectory trajectory;
@@ -64,9 +64,10 @@ void GraphSlamThread::addKeyframe(const Keyframe& keyframe) {
       scan->keyframe_ms = keyframe_ms;
     }
     listener_.on_graph(session_->slam.snapshot());
-    if (!outcome.optimization) return;
-    session_->optimizations.push_back(*outcome.optimization);
-    listener_.on_optimization(*outcome.optimization);
+    for (const OptimizationSummary& optimization : outcome.optimizations) {
+      session_->optimizations.push_back(optimization);
+      listener_.on_optimization(optimization);
+    }
   });
 }
 

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "mrpt_sgraphs/frontend/ground_layer.h"
+#include "mrpt_sgraphs/frontend/wall_layer.h"
 #include "mrpt_sgraphs/hierarchy/optimize_selection.h"
 
 namespace mrpt_sgraphs {
@@ -54,17 +56,78 @@ OptimizationSummary summaryOf(const OptimizerReport& report, const LayeredGraph&
 }  // namespace
 
 struct GraphSlam::State {
-  State(const LoopCloserConfig& loops, const SolverConfig& solver)
-      : loop_closer(loops), solver(solver) {}
+  explicit State(const GraphSlamConfig& config)
+      : config(config),
+        loop_closer(config.loop_closure),
+        walls(config.walls),
+        ground(config.ground) {}
 
+  bool associate();
+  void addLoops(KeyframeOutcome* outcome);
+  OptimizationSummary optimizeOnce();
+  void settle(bool after_loop, std::vector<OptimizationSummary>* optimizations);
+
+  GraphSlamConfig config;
   LayeredGraph graph;
   LoopCloser loop_closer;
-  SolverConfig solver;
+  WayToNewest way;
+  WallLayer walls;
+  GroundLayer ground;
   Optimizer optimizer;
 };
 
-GraphSlam::GraphSlam(const LoopCloserConfig& loops, const SolverConfig& solver)
-    : state_(std::make_unique<State>(loops, solver)) {}
+/// The planes of the newest keyframe.
+/// @return Whether the graph has new factors.
+bool GraphSlam::State::associate() {
+  if (!config.walls.enabled && !config.ground.enabled) return false;
+  way.update(graph);
+  const bool grounded = config.ground.enabled && ground.associate(way, &graph);
+  const bool walled = config.walls.enabled && walls.associate(way, &graph);
+  return grounded || walled;
+}
+
+void GraphSlam::State::addLoops(KeyframeOutcome* outcome) {
+  const RobustKernel doubt{RobustKernel::Kind::kCauchy, config.solver.loop_kernel_chi2};
+  for (const LoopClosure& loop : loop_closer.find(*graph.snapshot())) {
+    graph.addFactor(
+        std::make_shared<RelativePoseFactor>(loop.from, loop.to, loop.T_from_to, loop.information,
+                                             RelativePoseFactor::Kind::kLoopClosure, doubt));
+    ++outcome->loop_closures;
+  }
+}
+
+OptimizationSummary GraphSlam::State::optimizeOnce() {
+  const OptimizerReport report =
+      optimizeSelection(selectAll(graph), config.solver.optimizer, &optimizer, &graph);
+  const uint32_t keyframes = static_cast<uint32_t>(graph.size(Layer::kKeyframe));
+  OptimizationSummary summary = summaryOf(report, graph);
+  if (keyframes > 0) {
+    const NodeHandle newest{Layer::kKeyframe, keyframes - 1};
+    const KeyframeAttributes& attributes = graph.attributes(KeyframeId{graph.nodeAt(newest).value});
+    summary.stamp_s = attributes.stamp_s;
+    graph.setMapOdom(orthonormalized(graph.pose(newest) * attributes.T_odom_base.inverse()));
+  }
+  return summary;
+}
+
+/// Optimizes until the walls stay what they are.
+void GraphSlam::State::settle(bool after_loop, std::vector<OptimizationSummary>* optimizations) {
+  // Each round but the first is for walls that were merged or split in the one before; what is left
+  // then waits for the next keyframe.
+  constexpr int kMaxRounds = 3;
+  if (after_loop && config.walls.enabled) walls.release(&graph);
+  for (int round = 0; round < kMaxRounds; ++round) {
+    optimizations->push_back(optimizeOnce());
+    if (!config.walls.enabled || graph.size(Layer::kKeyframe) == 0) return;
+    const bool widened = after_loop && round == 0;
+    if (widened) way.update(graph);
+    const bool changed =
+        widened ? walls.maintainAfterLoop(way, &graph) : walls.maintain(way, &graph);
+    if (!changed) return;
+  }
+}
+
+GraphSlam::GraphSlam(const GraphSlamConfig& config) : state_(std::make_unique<State>(config)) {}
 
 GraphSlam::~GraphSlam() = default;
 
@@ -81,8 +144,8 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
                                 std::to_string(before->stamp_s) + " s");
   }
 
-  const bool known = keyframe.covariance.allFinite() &&
-                     keyframe.covariance.llt().info() == Eigen::Success;
+  const bool known =
+      keyframe.covariance.allFinite() && keyframe.covariance.llt().info() == Eigen::Success;
   if (!before->keyframes.empty() && !known) {
     throw std::invalid_argument("the covariance of a keyframe is not positive definite");
   }
@@ -101,29 +164,17 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
         keyframe.covariance.inverse(), Kind::kOdometry));
   }
 
-  const RobustKernel doubt{RobustKernel::Kind::kCauchy, state_->solver.loop_kernel_chi2};
-  for (const LoopClosure& loop : state_->loop_closer.find(*graph.snapshot())) {
-    graph.addFactor(std::make_shared<RelativePoseFactor>(
-        loop.from, loop.to, loop.T_from_to, loop.information, Kind::kLoopClosure, doubt));
-    ++outcome.loop_closures;
-  }
-  if (outcome.loop_closures > 0) outcome.optimization = optimize();
+  const bool has_surfaces = state_->associate();
+  state_->addLoops(&outcome);
+  const bool has_loops = outcome.loop_closures > 0;
+  if (has_surfaces || has_loops) state_->settle(has_loops, &outcome.optimizations);
   return outcome;
 }
 
 OptimizationSummary GraphSlam::optimize() {
-  LayeredGraph& graph = state_->graph;
-  const OptimizerReport report =
-      optimizeSelection(selectAll(graph), state_->solver.optimizer, &state_->optimizer, &graph);
-  const uint32_t keyframes = static_cast<uint32_t>(graph.size(Layer::kKeyframe));
-  OptimizationSummary summary = summaryOf(report, graph);
-  if (keyframes > 0) {
-    const NodeHandle newest{Layer::kKeyframe, keyframes - 1};
-    const KeyframeAttributes& attributes = graph.attributes(KeyframeId{graph.nodeAt(newest).value});
-    summary.stamp_s = attributes.stamp_s;
-    graph.setMapOdom(orthonormalized(graph.pose(newest) * attributes.T_odom_base.inverse()));
-  }
-  return summary;
+  std::vector<OptimizationSummary> optimizations;
+  state_->settle(false, &optimizations);
+  return optimizations.back();
 }
 
 GraphSnapshotConstPtr GraphSlam::snapshot() const { return state_->graph.snapshot(); }

@@ -14,7 +14,7 @@ Pipeline::Pipeline(const SlamConfig& config)
       odometry_(config.odometry),
       keyframes_(config.keyframes),
       gatherer_(static_cast<std::size_t>(config.plane_segmentation.gathered_points)),
-      graph_slam_(config.loop_closure, config.solver) {}
+      graph_slam_(config) {}
 
 std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
                               const std::string& base_frame) {
@@ -51,7 +51,8 @@ std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
     }
     report.segment_ms = watch.lap();
     const KeyframeOutcome outcome = graph_slam_.addKeyframe(*keyframe);
-    if (outcome.optimization) optimizations_.push_back(*outcome.optimization);
+    optimizations_.insert(optimizations_.end(), outcome.optimizations.begin(),
+                          outcome.optimizations.end());
     report.keyframe = true;
   }
   report.keyframe_ms = watch.lap();

@@ -26,7 +26,7 @@ Keyframe keyframeAt(double stamp_s, double x_m) {
 }
 
 TEST(GraphSlam, ChainsKeyframesByOdometry) {
-  GraphSlam slam(LoopCloserConfig{}, SolverConfig{});
+  GraphSlam slam(GraphSlamConfig{});
   slam.addKeyframe(keyframeAt(1.0, 0.0));
   slam.addKeyframe(keyframeAt(2.0, 1.0));
   const GraphSnapshotConstPtr graph = slam.snapshot();
@@ -40,7 +40,7 @@ TEST(GraphSlam, ChainsKeyframesByOdometry) {
 }
 
 TEST(GraphSlam, SnapshotIsTheSameObjectUntilSomethingChanges) {
-  GraphSlam slam(LoopCloserConfig{}, SolverConfig{});
+  GraphSlam slam(GraphSlamConfig{});
   slam.addKeyframe(keyframeAt(1.0, 0.0));
   const GraphSnapshotConstPtr before = slam.snapshot();
   EXPECT_EQ(before, slam.snapshot());
@@ -50,7 +50,7 @@ TEST(GraphSlam, SnapshotIsTheSameObjectUntilSomethingChanges) {
 }
 
 TEST(GraphSlam, RefusesKeyframesWithoutCloudOrOutOfOrder) {
-  GraphSlam slam(LoopCloserConfig{}, SolverConfig{});
+  GraphSlam slam(GraphSlamConfig{});
   slam.addKeyframe(keyframeAt(2.0, 0.0));
   Keyframe empty = keyframeAt(3.0, 1.0);
   empty.cloud.reset();
@@ -63,7 +63,7 @@ TEST(GraphSlam, RefusesKeyframesWithoutCloudOrOutOfOrder) {
 }
 
 TEST(GraphSlam, OptimizesNothingWithoutComplaint) {
-  GraphSlam slam(LoopCloserConfig{}, SolverConfig{});
+  GraphSlam slam(GraphSlamConfig{});
   EXPECT_TRUE(slam.optimize().converged);
   slam.addKeyframe(keyframeAt(1.0, 0.0));
   EXPECT_TRUE(slam.optimize().converged);

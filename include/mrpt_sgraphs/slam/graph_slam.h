@@ -3,13 +3,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
 #include "mrpt_sgraphs/graph/snapshot.h"
-#include "mrpt_sgraphs/semantics/loop_closer.h"
-#include "mrpt_sgraphs/slam/solver_config.h"
+#include "mrpt_sgraphs/slam/graph_slam_config.h"
 #include "mrpt_sgraphs/solver/optimization_summary.h"
 
 namespace mrpt_sgraphs {
@@ -17,23 +15,26 @@ namespace mrpt_sgraphs {
 /// What adding a keyframe came to.
 struct KeyframeOutcome {
   KeyframeId id;
-  int loop_closures = 0;                            ///< Believed and added.
-  std::optional<OptimizationSummary> optimization;  ///< Of the optimization that they caused.
+  int loop_closures = 0;  ///< Believed and added.
+  /// What followed: none for a keyframe that nothing but odometry holds, two where walls were
+  /// merged after the first.
+  std::vector<OptimizationSummary> optimizations;
 };
 
-/// The back end: keyframes in, a graph with loops closed out. One thread owns it; others read the
-/// snapshots that it hands out.
+/// The back end: keyframes in, a graph of keyframes, walls and ground with loops closed out. One
+/// thread owns it; others read the snapshots that it hands out.
 class GraphSlam {
  public:
-  GraphSlam(const LoopCloserConfig& loops, const SolverConfig& solver);
+  explicit GraphSlam(const GraphSlamConfig& config);
   ~GraphSlam();
 
-  /// Takes the keyframe into the graph, looks for loops and optimizes if there are any.
+  /// Takes the keyframe into the graph, finds the walls and the ground among its planes, looks for
+  /// loops, and optimizes if there is more than odometry to it.
   /// @throws std::invalid_argument for a keyframe without a cloud, not newer than the last one, or
   ///         with a covariance that is not positive definite; the graph is then as it was.
   KeyframeOutcome addKeyframe(const Keyframe& keyframe);
 
-  /// Optimizes the whole graph now.
+  /// Optimizes the whole graph now; walls that grow together by it are merged.
   OptimizationSummary optimize();
 
   /// What the graph is now; the same object until it changes.

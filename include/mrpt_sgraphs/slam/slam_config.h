@@ -6,20 +6,17 @@
 #include "mrpt_sgraphs/frontend/odometry.h"
 #include "mrpt_sgraphs/frontend/plane_segmentation.h"
 #include "mrpt_sgraphs/frontend/prefilter.h"
-#include "mrpt_sgraphs/semantics/loop_closer.h"
-#include "mrpt_sgraphs/slam/solver_config.h"
+#include "mrpt_sgraphs/slam/graph_slam_config.h"
 
 namespace mrpt_sgraphs {
 
 /// Every parameter of the pipeline, in sections that have the same names in YAML files, on the
 /// parameter server and here.
-struct SlamConfig {
+struct SlamConfig : GraphSlamConfig {
   PrefilterConfig prefilter;
   OdometryConfig odometry;
   KeyframeConfig keyframes;
   PlaneSegmentationConfig plane_segmentation;
-  LoopCloserConfig loop_closure;
-  SolverConfig solver;
 
   /// The one list of sections: `section(name, config)`.
   template <typename Self, typename Section>
@@ -29,6 +26,8 @@ struct SlamConfig {
     section("keyframes", self.keyframes);
     section("plane_segmentation", self.plane_segmentation);
     section("loop_closure", self.loop_closure);
+    section("walls", self.walls);
+    section("ground", self.ground);
     section("solver", self.solver);
   }
 };
