@@ -19,9 +19,8 @@ namespace mrpt_sgraphs {
 /// Publishes  markers     (visualization_msgs/MarkerArray, latched)  the layers, every second
 ///            trajectory  (nav_msgs/Path, latched)                   every scan, every second
 ///            map_points  (sensor_msgs/PointCloud2, latched)         decimated, every three seconds
-///            wall_points (sensor_msgs/PointCloud2, latched)         each wall's points in its colour,
-///                                                                   every three seconds
-/// Graph, map and walls only if the graph changed.
+///            wall_points (sensor_msgs/PointCloud2, latched)         in the walls' colours, as often
+/// All but the trajectory only if the graph changed.
 class DisplayPublisher {
  public:
   /// Where the values come from; `graph` may give null.

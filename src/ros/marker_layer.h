@@ -17,8 +17,8 @@ inline std_msgs::ColorRGBA colour(float r, float g, float b, float alpha = 1.0F)
   return rgba;
 }
 
-/// A marker in `map`, stamped zero, which to tf means now: the graph is shown where it is, not where
-/// it was.
+/// A marker in `map`, stamped zero, which to tf means now: the graph is shown where it is, not
+/// where it was.
 /// @param name    Of its namespace.
 /// @param size_m  Diameter of its spheres, width of its lines or height of its text.
 inline visualization_msgs::Marker layer(const std::string& name, int type, double size_m,

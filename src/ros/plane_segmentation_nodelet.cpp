@@ -23,7 +23,7 @@ namespace mrpt_sgraphs {
 /// Subscribes  scan_odometry      (mrpt_sgraphs/ScanOdometry)      matched with
 ///             points_deskewed    (Cloud, zero-copy)               and
 ///             keyframe_decision  (mrpt_sgraphs/KeyframeDecision)  by their stamp
-/// Publishes   keyframe_planes    (mrpt_sgraphs/KeyframePlanes)    once for every keyframe, its stamp
+/// Publishes   keyframe_planes    (mrpt_sgraphs/KeyframePlanes)    for each keyframe, its stamp
 /// Parameters  plane_segmentation/*  PlaneSegmentationConfig
 ///
 /// A scan waits until it is known whether it is a keyframe. So the scans up to a keyframe are
@@ -42,8 +42,8 @@ class PlaneSegmentationNodelet final : public PipelineNodelet {
     scan_sub_ = nh.subscribe("scan_odometry", kQueueSize, &PlaneSegmentationNodelet::onScan, this);
     cloud_sub_ =
         nh.subscribe("points_deskewed", kQueueSize, &PlaneSegmentationNodelet::onCloud, this);
-    decision_sub_ = nh.subscribe("keyframe_decision", kQueueSize,
-                                 &PlaneSegmentationNodelet::onDecision, this);
+    decision_sub_ =
+        nh.subscribe("keyframe_decision", kQueueSize, &PlaneSegmentationNodelet::onDecision, this);
   }
 
   void onScan(const ScanOdometryConstPtr& msg) {

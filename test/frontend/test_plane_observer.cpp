@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mrpt_sgraphs/frontend/plane_observer.h"
-
 #include <gtest/gtest.h>
+
+#include "mrpt_sgraphs/frontend/plane_observer.h"
 
 namespace mrpt_sgraphs {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mrpt_sgraphs/geometry/triangulation.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
 #include "mrpt_sgraphs/geometry/cell_outline.h"
+#include "mrpt_sgraphs/geometry/triangulation.h"
 #include "support/random_geometry.h"
 
 namespace mrpt_sgraphs {
@@ -72,27 +71,28 @@ TEST(Triangulation, TakesRingsEitherWayRound) {
 }
 
 TEST(Triangulation, BearsCornersInLineAndCornersThatAreThereTwice) {
-  expectTriangulated({{{0, 0}, {2, 0}, {2, 0}, {5, 0}, {9, 0}, {9, 4}, {9, 4}, {4, 4}, {0, 4}, {0, 1}},
-                      {{{1, 1}, {2, 1}, {3, 1}, {3, 3}, {3, 3}, {1, 3}, {1, 2}}}});
+  expectTriangulated(
+      {{{0, 0}, {2, 0}, {2, 0}, {5, 0}, {9, 0}, {9, 4}, {9, 4}, {4, 4}, {0, 4}, {0, 1}},
+       {{{1, 1}, {2, 1}, {3, 1}, {3, 3}, {3, 3}, {1, 3}, {1, 2}}}});
 }
 
 TEST(Triangulation, GoesAroundManyHolesInRowsAndColumns) {
   FlatExtent facade{box(0, 0, 10, 5), {}};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 6; ++column) {
-      facade.holes.push_back(box(0.5 + 1.5 * column, 0.5 + 1.5 * row, 1.5 + 1.5 * column,
-                                 1.5 + 1.5 * row));
+      facade.holes.push_back(
+          box(0.5 + 1.5 * column, 0.5 + 1.5 * row, 1.5 + 1.5 * column, 1.5 + 1.5 * row));
     }
   }
   expectTriangulated(facade);
 }
 
 TEST(Triangulation, BearsHolesThatTouchTheOutlineAndEachOther) {
-  expectTriangulated({box(0, 0, 10, 3), {box(2, 0, 2.9, 2)}});                      // a door
-  expectTriangulated({box(0, 0, 10, 3), {box(0, 0, 1, 2), box(9, 0, 10, 2)}});      // in the corners
-  expectTriangulated({box(0, 0, 10, 3), {box(2, 0, 3, 2), box(3, 0, 4, 1)}});       // side by side
-  expectTriangulated({box(0, 0, 10, 3), {box(2, 0.5, 3, 1), box(3, 1, 4, 2)}});     // by a corner
-  expectTriangulated({box(0, 0, 10, 3), {box(2, 0, 3, 3)}});                        // cut in two
+  expectTriangulated({box(0, 0, 10, 3), {box(2, 0, 2.9, 2)}});                   // a door
+  expectTriangulated({box(0, 0, 10, 3), {box(0, 0, 1, 2), box(9, 0, 10, 2)}});   // in the corners
+  expectTriangulated({box(0, 0, 10, 3), {box(2, 0, 3, 2), box(3, 0, 4, 1)}});    // side by side
+  expectTriangulated({box(0, 0, 10, 3), {box(2, 0.5, 3, 1), box(3, 1, 4, 2)}});  // by a corner
+  expectTriangulated({box(0, 0, 10, 3), {box(2, 0, 3, 3)}});                     // cut in two
   expectTriangulated({box(0, 0, 10, 3), {{{2, 1}, {3, 0}, {4, 1}}, box(6, 0, 7, 2)}});
 }
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mrpt_sgraphs/mapping/wall_points.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "mrpt_sgraphs/factors/plane_observation.h"
 #include "mrpt_sgraphs/mapping/wall_colour.h"
+#include "mrpt_sgraphs/mapping/wall_points.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -57,10 +56,9 @@ class WallPoints : public ::testing::Test {
   }
 
   void see(WallId wall) {
-    graph_.factors.push_back(
-        {FactorId{graph_.factors.size()},
-         std::make_shared<PlaneObservationFactor>(keyframe_.id, wall, Plane{},
-                                                  Eigen::Matrix3d::Identity())});
+    graph_.factors.push_back({FactorId{graph_.factors.size()},
+                              std::make_shared<PlaneObservationFactor>(
+                                  keyframe_.id, wall, Plane{}, Eigen::Matrix3d::Identity())});
   }
 
   ColouredCloud::Ptr points(const WallPointsConfig& config = kEveryPoint) {

@@ -138,7 +138,7 @@ class PipelineTest(unittest.TestCase):
         for wall in walls:
             self.assertGreaterEqual(len(wall.polygon), 3)
             for corner in wall.polygon:
-                self.assertAlmostEqual(dot(wall.normal, corner), wall.distance, 6)
+                self.assertAlmostEqual(dot(wall.normal, corner), wall.distance, delta=0.05)
         self.assertTrue(wait_for(lambda: WALL_NAMESPACES <= self.shown_namespaces(), 5.0))
         self.assertTrue(wait_for(lambda: 'wall_points' in self.latest
                                  and self.latest['wall_points'].width > 1000, 5.0))

@@ -112,8 +112,8 @@ TEST(Conversions, TheGraphHasItsWallsItsFloorsAndFactorsOfAllTypes) {
 
   ASSERT_EQ(msg.factors.size(), 6U);
   EXPECT_EQ(msg.factors[4].type, "wall_observation");
-  EXPECT_EQ(msg.factors[4].layers, (std::vector<std::uint8_t>{GraphFactor::KEYFRAME,
-                                                              GraphFactor::WALL}));
+  EXPECT_EQ(msg.factors[4].layers,
+            (std::vector<std::uint8_t>{GraphFactor::KEYFRAME, GraphFactor::WALL}));
   EXPECT_EQ(msg.factors[4].nodes, (std::vector<std::uint64_t>{1, 4}));
   EXPECT_EQ(msg.factors[5].type, "ground_observation");
   EXPECT_EQ(msg.factors[5].layers[1], std::uint8_t{GraphFactor::FLOOR});
@@ -123,8 +123,10 @@ ObservedPlane somePlane(double x) {
   test::RandomGeometry random(static_cast<unsigned>(x));
   ObservedPlane plane;
   plane.plane_base = {random.vector(1.0).normalized(), random.number(5.0)};
-  const Eigen::Matrix3d root = Eigen::Matrix3d::NullaryExpr([&random] { return random.number(1.0); });
-  plane.covariance = root * root.transpose() + Eigen::Matrix3d(Eigen::Vector3d(1, 2, 3).asDiagonal());
+  const Eigen::Matrix3d root =
+      Eigen::Matrix3d::NullaryExpr([&random] { return random.number(1.0); });
+  plane.covariance =
+      root * root.transpose() + Eigen::Matrix3d(Eigen::Vector3d(1, 2, 3).asDiagonal());
   plane.covariance = plane.covariance.selfadjointView<Eigen::Upper>();
   plane.centroid_base = random.vector(5.0);
   for (int k = 0; k < 5; ++k) plane.extent_base.outline.push_back(random.vector(5.0));

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mrpt_sgraphs/ros/markers.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "mrpt_sgraphs/mapping/wall_colour.h"
+#include "mrpt_sgraphs/ros/markers.h"
 #include "some_graph.h"
 
 namespace mrpt_sgraphs {
@@ -50,8 +49,7 @@ double areaOf(const Marker& triangles) {
   double sum = 0.0;
   for (std::size_t k = 0; k + 2 < triangles.points.size(); k += 3) {
     const Eigen::Vector3d a = at(triangles.points[k]);
-    sum += 0.5 *
-           (at(triangles.points[k + 1]) - a).cross(at(triangles.points[k + 2]) - a).norm();
+    sum += 0.5 * (at(triangles.points[k + 1]) - a).cross(at(triangles.points[k + 2]) - a).norm();
   }
   return sum;
 }
@@ -65,9 +63,7 @@ TEST(Markers, ShowEachLayerInItsOwnNamespace) {
   EXPECT_EQ(markers[2].points.size(), 2U);
 }
 
-TEST(Markers, OfAnEmptyGraphRemoveWhatWasShown) {
-  EXPECT_TRUE(markersOf(GraphSnapshot()).empty());
-}
+TEST(Markers, OfAnEmptyGraphRemoveWhatWasShown) { EXPECT_TRUE(markersOf(GraphSnapshot()).empty()); }
 
 TEST(Markers, ShowAWallAsItsExtentWithItsDoorInItsColour) {
   const auto markers = markersOf(test::threeKeyframesBetweenWalls());
@@ -112,8 +108,7 @@ TEST(Markers, TieKeyframesToTheMiddleOfTheWallsThatTheySee) {
 }
 
 TEST(Markers, ShowAFloorAsASquareOnItsGroundAroundItsCentre) {
-  const Marker floors =
-      markerNamed("floors", markersOf(test::threeKeyframesBetweenWalls()));
+  const Marker floors = markerNamed("floors", markersOf(test::threeKeyframesBetweenWalls()));
   EXPECT_NEAR(areaOf(floors), 4.0, 1e-6);
   for (const auto& point : floors.points) {
     EXPECT_NEAR(point.z, -0.5, 1e-12);

@@ -18,7 +18,8 @@ using Triangle3 = std::array<Eigen::Vector3d, 3>;
 ///
 /// Any rings will do. An outline that was straightened can cut into a hole that stands on it, and
 /// holes can touch each other; cutting ears off, which takes fewer triangles, needs rings without
-/// either. So the extent is cut along v wherever a ring has a corner or rings cross, into trapezoids.
+/// either. So the extent is cut along v wherever a ring has a corner or rings cross, into
+/// trapezoids.
 std::vector<Triangle2> triangulated(const FlatExtent& extent);
 
 /// The same for an extent on a plane: counter-clockwise as seen from the normal's side.

@@ -19,7 +19,8 @@ struct WallPointsConfig {
 using ColouredCloud = pcl::PointCloud<pcl::PointXYZRGB>;
 
 /// The points that lie on the walls, in `map`, in the colours of the walls: of each keyframe those
-/// that lie within the extent of a wall that it observes. Where walls meet, a point is of the nearest.
+/// that lie within the extent of a wall that it observes. Where walls meet, a point is of the
+/// nearest.
 ColouredCloud::Ptr wallPoints(const GraphSnapshot& graph, const WallPointsConfig& config);
 
 }  // namespace mrpt_sgraphs
