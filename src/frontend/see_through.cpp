@@ -10,7 +10,7 @@ namespace mrpt_sgraphs {
 namespace {
 
 /// A ray that ends nearer behind the plane may have ended on it [m].
-constexpr float kBehind_m = 0.3F;
+constexpr float kBehind_m = 0.2F;
 /// Nor do rays from nearer in front count: they graze it.
 constexpr float kInFront_m = 0.2F;
 /// Points of a scan that are looked at.
@@ -105,12 +105,15 @@ SeeThrough::OpenEdges SeeThrough::openEdgesOf(const CellSet& seen) const {
   return edges;
 }
 
-bool isFurniture(const SeeThrough::OpenEdges& edges) {
+bool isFurniture(const SeeThrough::OpenEdges& edges, bool has_wall_behind) {
   constexpr double kSeenOver = 0.5;
   constexpr double kSeenPast = 0.3;
-  constexpr double kMaxPillar_m = 1.2;
+  constexpr double kMaxWidth_m = 2.5;
   if (edges.stands_low && edges.above >= kSeenOver) return true;
-  return edges.width_m <= kMaxPillar_m && edges.left >= kSeenPast && edges.right >= kSeenPast;
+  if (edges.width_m > kMaxWidth_m) return false;
+  const double less_open = std::min(edges.left, edges.right);
+  const double more_open = std::max(edges.left, edges.right);
+  return less_open >= kSeenPast || (has_wall_behind && more_open >= kSeenPast);
 }
 
 }  // namespace mrpt_sgraphs

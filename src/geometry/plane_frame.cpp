@@ -3,7 +3,32 @@
 
 #include "mrpt_sgraphs/geometry/plane_frame.h"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace mrpt_sgraphs {
+namespace {
+
+/// By how often a ray along u meets the ring.
+bool isWithin(const Outline2& ring, const Eigen::Vector2d& point) {
+  bool inside = false;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Eigen::Vector2d& a = ring[k];
+    const Eigen::Vector2d& b = ring[(k + 1) % ring.size()];
+    if ((a.y() > point.y()) == (b.y() > point.y())) continue;
+    const double u = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    if (point.x() < u) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace
+
+bool contains(const FlatExtent& extent, const Eigen::Vector2d& point) {
+  return isWithin(extent.outline, point) &&
+         std::none_of(extent.holes.begin(), extent.holes.end(),
+                      [&point](const Outline2& hole) { return isWithin(hole, point); });
+}
 
 FlatExtent flattened(const PlanarExtent& extent, const PlaneFrame& frame) {
   const auto flat = [&frame](const Outline3& ring) {

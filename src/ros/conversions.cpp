@@ -12,33 +12,6 @@ namespace {
 
 using RowMajor6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
-template <typename Layer>
-std::int64_t toMsg(const std::optional<Id<Layer>>& id) {
-  return id ? static_cast<std::int64_t>(id->value) : std::int64_t{GraphKeyframe::NONE};
-}
-
-GraphKeyframe toMsg(const KeyframeNode& node) {
-  GraphKeyframe msg;
-  msg.id = node.id.value;
-  msg.stamp = toRosTime(node.stamp_s);
-  msg.pose = toPoseMsg(node.T_map_base);
-  msg.floor = toMsg(node.floor);
-  msg.room = toMsg(node.room);
-  msg.marginalized = node.marginalized;
-  msg.representative = node.representative.value_or(node.id).value;
-  return msg;
-}
-
-GraphFactor toMsg(const Factor& factor) {
-  GraphFactor msg;
-  msg.type = factor.type();
-  for (int k = 0; k < factor.nodeCount(); ++k) {
-    msg.layers.push_back(static_cast<std::uint8_t>(factor.node(k).layer));
-    msg.nodes.push_back(factor.node(k).value);
-  }
-  return msg;
-}
-
 }  // namespace
 
 ros::Time toRosTime(double stamp_s) { return pcl_conversions::fromPCL(toPclStamp(stamp_s)); }
@@ -146,16 +119,7 @@ KeyframeStamped toMsg(const Keyframe& keyframe, const std_msgs::Header& header,
 std::optional<Keyframe> toKeyframe(const KeyframeStamped& msg) {
   const auto T_odom_base = toPose(msg.pose);
   if (!T_odom_base) return std::nullopt;
-  return Keyframe{msg.header.stamp.toSec(), *T_odom_base, toMatrix(msg.covariance), nullptr};
-}
-
-SituationalGraph toMsg(const GraphSnapshot& graph, const std::string& map_frame) {
-  SituationalGraph msg;
-  msg.header.stamp = toRosTime(graph.stamp_s);
-  msg.header.frame_id = map_frame;
-  for (const KeyframeNode& node : graph.keyframes) msg.keyframes.push_back(toMsg(node));
-  for (const StoredFactor& stored : graph.factors) msg.factors.push_back(toMsg(*stored.factor));
-  return msg;
+  return Keyframe{msg.header.stamp.toSec(), *T_odom_base, toMatrix(msg.covariance), nullptr, nullptr};
 }
 
 OptimizationReport toMsg(const OptimizationSummary& summary, const std::string& map_frame) {

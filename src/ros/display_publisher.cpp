@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "mrpt_sgraphs/mapping/map_cloud.h"
+#include "mrpt_sgraphs/mapping/wall_points.h"
 #include "mrpt_sgraphs/ros/conversions.h"
 #include "mrpt_sgraphs/ros/markers.h"
 
@@ -27,13 +28,16 @@ DisplayPublisher::DisplayPublisher(ros::NodeHandle& nh, std::string map_frame, S
       markers_pub_(nh.advertise<visualization_msgs::MarkerArray>("markers", kQueueSize, kLatched)),
       trajectory_pub_(nh.advertise<nav_msgs::Path>("trajectory", kQueueSize, kLatched)),
       map_pub_(nh.advertise<Cloud>("map_points", kQueueSize, kLatched)),
+      wall_points_pub_(nh.advertise<ColouredCloud>("wall_points", kQueueSize, kLatched)),
       graph_timer_(nh.createSteadyTimer(ros::WallDuration(1.0),
                                         [this](const ros::SteadyTimerEvent&) {
                                           publishMarkers();
                                           publishTrajectory();
                                         })),
-      map_timer_(nh.createSteadyTimer(ros::WallDuration(3.0),
-                                      [this](const ros::SteadyTimerEvent&) { publishMap(); })) {}
+      map_timer_(nh.createSteadyTimer(ros::WallDuration(3.0), [this](const ros::SteadyTimerEvent&) {
+        publishMap();
+        publishWallPoints();
+      })) {}
 
 void DisplayPublisher::publishMarkers() {
   const GraphSnapshotConstPtr graph = source_.graph();
@@ -54,6 +58,17 @@ void DisplayPublisher::publishMap() {
   const auto map = mapCloud(*graph, kMapResolution_m);
   map->header.frame_id = map_frame_;
   map_pub_.publish(pcl::ros_ptr(map));
+}
+
+void DisplayPublisher::publishWallPoints() {
+  const GraphSnapshotConstPtr graph = source_.graph();
+  if (!graph || graph == graph_in_wall_points_ || wall_points_pub_.getNumSubscribers() == 0) return;
+  graph_in_wall_points_ = graph;
+  WallPointsConfig config;
+  config.resolution_m = kMapResolution_m;
+  const auto points = wallPoints(*graph, config);
+  points->header.frame_id = map_frame_;
+  wall_points_pub_.publish(pcl::ros_ptr(points));
 }
 
 }  // namespace mrpt_sgraphs

@@ -39,7 +39,8 @@ std::string rescueFolder(double last_stamp_s) {
 /// The back end among the nodelets: GraphSlam on its own thread, what goes in and what comes out.
 ///
 /// Subscribes  keyframe         (mrpt_sgraphs/KeyframeStamped)  matched with
-///             keyframe_points  (Cloud, zero-copy)              by their stamp
+///             keyframe_points  (Cloud, zero-copy)              and
+///             keyframe_planes  (mrpt_sgraphs/KeyframePlanes)   by their stamp
 ///             scan_odometry    (mrpt_sgraphs/ScanOdometry)     for the trajectory of every scan
 /// Publishes   see GraphPublisher and DisplayPublisher
 /// Serves      see GraphServices
@@ -48,7 +49,7 @@ std::string rescueFolder(double last_stamp_s) {
 class GraphSlamNodelet final : public PipelineNodelet {
  private:
   using CloudConstPtr = boost::shared_ptr<const Cloud>;
-  using Matcher = StampMatcher<KeyframeStampedConstPtr, CloudConstPtr>;
+  using Matcher = StampMatcher<KeyframeStampedConstPtr, CloudConstPtr, KeyframePlanesConstPtr>;
 
   void start() override {
     const SlamConfig config = loadSlamConfig(getNodeHandle());
@@ -75,6 +76,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
     scan_sub_ = nh.subscribe("scan_odometry", kQueueSize, &GraphSlamNodelet::onScan, this);
     keyframe_sub_ = nh.subscribe("keyframe", kQueueSize, &GraphSlamNodelet::onKeyframe, this);
     cloud_sub_ = nh.subscribe("keyframe_points", kQueueSize, &GraphSlamNodelet::onCloud, this);
+    planes_sub_ = nh.subscribe("keyframe_planes", kQueueSize, &GraphSlamNodelet::onPlanes, this);
   }
 
   void onScan(const ScanOdometryConstPtr& msg) {
@@ -92,26 +94,36 @@ class GraphSlamNodelet final : public PipelineNodelet {
   }
 
   void onKeyframe(const KeyframeStampedConstPtr& msg) {
-    add(matcher_.addFirst(pcl_conversions::toPCL(msg->header.stamp), msg));
+    if (!isOfThisSession(msg->session)) return;
+    add(matcher_.add<0>(pcl_conversions::toPCL(msg->header.stamp), msg));
   }
 
   void onCloud(const CloudConstPtr& cloud) {
     traceCloud("receive", "keyframe_points", cloud.get());
-    add(matcher_.addSecond(cloud->header.stamp, cloud));
+    add(matcher_.add<1>(cloud->header.stamp, cloud));
   }
 
-  void add(const std::optional<Matcher::Pair>& pair) {
-    if (!pair || !isOfThisSession(pair->first->session)) return;
-    auto keyframe = toKeyframe(*pair->first);
+  void onPlanes(const KeyframePlanesConstPtr& msg) {
+    traceCloud("receive", "keyframe_planes", msg.get());
+    if (!isOfThisSession(msg->session)) return;
+    add(matcher_.add<2>(pcl_conversions::toPCL(msg->header.stamp), msg));
+  }
+
+  void add(const std::optional<Matcher::Set>& set) {
+    if (!set) return;
+    const auto& [msg, cloud, planes] = *set;
+    auto keyframe = toKeyframe(*msg);
     if (!keyframe) return;
-    keyframe->cloud = pcl::pcl_ptr(pair->second);
-    slam_->addKeyframe(*keyframe);
+    keyframe->cloud = pcl::pcl_ptr(cloud);
+    keyframe->planes = toObservedPlanes(*planes);
+    slam_->addKeyframe(*keyframe, planes->segment_ms);
   }
 
-  /// A session that is newer begins, one that is older ended.
+  /// A session that is newer begins, one that is older ended: nothing of it is waited for.
   bool isOfThisSession(std::uint32_t session) {
     if (session > session_) {
       session_ = session;
+      matcher_.clear();
       slam_->startAgain(rescueFolder(last_stamp_s_));
     }
     return session == session_;
@@ -124,16 +136,23 @@ class GraphSlamNodelet final : public PipelineNodelet {
   }
 
   void describe(Diagnostics::Status& status) {
-    constexpr std::size_t kMaxWaiting = 100;  // ten seconds of scans
+    constexpr std::size_t kMaxWaiting = 100;    // ten seconds of scans
+    constexpr std::size_t kMaxIncomplete = 10;  // as many metres, unless told otherwise
     const std::size_t waiting = slam_->waiting();
     const GraphSnapshotConstPtr graph = publisher_->graph();
     if (waiting > kMaxWaiting) {
       status.summary(Diagnostics::Status::WARN, "the back end cannot keep up");
+    } else if (matcher_.waiting() > kMaxIncomplete) {
+      status.summary(Diagnostics::Status::WARN,
+                     "keyframes wait for their planes: is PlaneSegmentation loaded?");
     } else {
       status.summary(Diagnostics::Status::OK, graph ? "the graph grows" : "no keyframe yet");
     }
     status.add("jobs waiting", waiting);
+    status.add("keyframes incomplete", matcher_.waiting());
     status.add("keyframes", graph ? graph->keyframes.size() : 0);
+    status.add("walls", graph ? graph->walls.size() : 0);
+    status.add("floors", graph ? graph->floors.size() : 0);
     status.add("factors", graph ? graph->factors.size() : 0);
     const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
     if (!last_optimization_) return;
@@ -158,7 +177,8 @@ class GraphSlamNodelet final : public PipelineNodelet {
   std::unique_ptr<Diagnostics> diagnostics_;
   ros::Subscriber scan_sub_;
   ros::Subscriber keyframe_sub_;
-  ros::Subscriber cloud_sub_;  ///< Last members: no callback outlives the others.
+  ros::Subscriber cloud_sub_;
+  ros::Subscriber planes_sub_;  ///< Last members: no callback outlives the others.
 };
 
 }  // namespace mrpt_sgraphs

@@ -49,8 +49,8 @@ void GraphSlamThread::addScan(const ScanMotion& scan, const ScanReport& report) 
   });
 }
 
-void GraphSlamThread::addKeyframe(const Keyframe& keyframe) {
-  post([this, keyframe] {
+void GraphSlamThread::addKeyframe(const Keyframe& keyframe, double segment_ms) {
+  post([this, keyframe, segment_ms] {
     CpuStopwatch stopwatch;
     const KeyframeOutcome outcome = session_->slam.addKeyframe(keyframe);
     const double keyframe_ms = stopwatch.lap();
@@ -61,6 +61,7 @@ void GraphSlamThread::addKeyframe(const Keyframe& keyframe) {
         });
     if (scan != session_->scans.rend()) {
       scan->keyframe = true;
+      scan->segment_ms = segment_ms;
       scan->keyframe_ms = keyframe_ms;
     }
     listener_.on_graph(session_->slam.snapshot());

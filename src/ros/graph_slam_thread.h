@@ -33,7 +33,9 @@ class GraphSlamThread {
   ~GraphSlamThread();  ///< What still waits is not done any more.
 
   void addScan(const ScanMotion& scan, const ScanReport& report);
-  void addKeyframe(const Keyframe& keyframe);
+
+  /// @param segment_ms  What its planes have cost.
+  void addKeyframe(const Keyframe& keyframe, double segment_ms);
 
   /// Writes what there is into `folder`, so that it is not lost, and begins with an empty graph.
   void startAgain(const std::string& folder);

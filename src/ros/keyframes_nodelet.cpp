@@ -7,6 +7,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "cloud_trace.h"
+#include "mrpt_sgraphs/KeyframeDecision.h"
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
 #include "mrpt_sgraphs/ros/conversions.h"
 #include "pipeline_nodelet.h"
@@ -18,9 +19,10 @@ namespace mrpt_sgraphs {
 ///
 /// Subscribes  scan_odometry    (mrpt_sgraphs/ScanOdometry)     matched with
 ///             points_deskewed  (Cloud, zero-copy)              by their stamp
-/// Publishes   keyframe         (mrpt_sgraphs/KeyframeStamped)  the scan's stamp
-///             keyframe_points  (Cloud, zero-copy)              the same stamp, thinned out
-/// Parameters  keyframes/*      KeyframeConfig
+/// Publishes   keyframe           (mrpt_sgraphs/KeyframeStamped)   the scan's stamp
+///             keyframe_points    (Cloud, zero-copy)               the same stamp, thinned out
+///             keyframe_decision  (mrpt_sgraphs/KeyframeDecision)  for every scan, its stamp
+/// Parameters  keyframes/*        KeyframeConfig
 class KeyframesNodelet final : public PipelineNodelet {
  private:
   using CloudConstPtr = boost::shared_ptr<const Cloud>;
@@ -30,6 +32,7 @@ class KeyframesNodelet final : public PipelineNodelet {
     selector_.emplace(section<KeyframeConfig>("keyframes"));
     ros::NodeHandle& nh = getNodeHandle();
     keyframe_pub_ = nh.advertise<KeyframeStamped>("keyframe", kQueueSize);
+    decision_pub_ = nh.advertise<KeyframeDecision>("keyframe_decision", kQueueSize);
     cloud_pub_ = nh.advertise<Cloud>("keyframe_points", kQueueSize);
     scan_sub_ = nh.subscribe("scan_odometry", kQueueSize, &KeyframesNodelet::onScan, this);
     cloud_sub_ = nh.subscribe("points_deskewed", kQueueSize, &KeyframesNodelet::onCloud, this);
@@ -40,28 +43,35 @@ class KeyframesNodelet final : public PipelineNodelet {
       session_ = msg->session;
       selector_->reset();
     }
-    process(matcher_.addFirst(pcl_conversions::toPCL(msg->header.stamp), msg));
+    process(matcher_.add<0>(pcl_conversions::toPCL(msg->header.stamp), msg));
   }
 
   void onCloud(const CloudConstPtr& cloud) {
     traceCloud("receive", "points_deskewed", cloud.get());
-    process(matcher_.addSecond(cloud->header.stamp, cloud));
+    process(matcher_.add<1>(cloud->header.stamp, cloud));
   }
 
-  void process(const std::optional<Matcher::Pair>& scan) {
+  void process(const std::optional<Matcher::Set>& scan) {
     if (!scan) return;
-    const ScanOdometry& odometry = *scan->first;
+    const ScanOdometry& odometry = *std::get<0>(*scan);
     const auto motion = toScanMotion(odometry);
     if (!motion || odometry.session != session_) return;
-    const auto keyframe = selector_->process(*motion, *scan->second);
-    if (!keyframe) return;
+    const auto keyframe = selector_->process(*motion, *std::get<1>(*scan));
+    const auto decision = boost::make_shared<KeyframeDecision>();
+    decision->header = odometry.header;
+    decision->session = session_;
+    decision->is_keyframe = keyframe.has_value();
+    decision_pub_.publish(decision);
+    if (keyframe) publish(*keyframe, odometry);
+  }
 
+  void publish(const Keyframe& keyframe, const ScanOdometry& odometry) {
     const auto msg = boost::make_shared<KeyframeStamped>(
-        toMsg(*keyframe, odometry.header, odometry.child_frame_id));
+        toMsg(keyframe, odometry.header, odometry.child_frame_id));
     msg->session = session_;
     keyframe_pub_.publish(msg);  // as a pointer, or it is serialized
-    traceCloud("publish", "keyframe_points", keyframe->cloud.get());
-    cloud_pub_.publish(pcl::ros_ptr(keyframe->cloud));
+    traceCloud("publish", "keyframe_points", keyframe.cloud.get());
+    cloud_pub_.publish(pcl::ros_ptr(keyframe.cloud));
   }
 
   std::optional<KeyframeSelector> selector_;
@@ -69,6 +79,7 @@ class KeyframesNodelet final : public PipelineNodelet {
   std::uint32_t session_ = 0;
   ros::Publisher keyframe_pub_;
   ros::Publisher cloud_pub_;
+  ros::Publisher decision_pub_;
   ros::Subscriber scan_sub_;
   ros::Subscriber cloud_sub_;  ///< Last members: no callback outlives the others.
 };

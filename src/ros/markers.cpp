@@ -4,7 +4,12 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
+
+#include "marker_layer.h"
+#include "wall_markers.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -15,32 +20,8 @@ constexpr double kSphere_m = 0.2;
 constexpr double kEdge_m = 0.03;
 constexpr double kLoop_m = 0.05;
 
-std_msgs::ColorRGBA colour(float r, float g, float b) {
-  std_msgs::ColorRGBA rgba;
-  rgba.r = r;
-  rgba.g = g;
-  rgba.b = b;
-  rgba.a = 1.0F;
-  return rgba;
-}
-
-/// Stamped zero, which to tf means now: the graph is shown where it is, not where it was.
-Marker layer(const std::string& name, int type, double size_m, const std_msgs::ColorRGBA& rgba,
-             const std::string& map_frame) {
-  Marker marker;
-  marker.header.frame_id = map_frame;
-  marker.ns = name;
-  marker.type = type;
-  marker.pose.orientation.w = 1.0;
-  marker.scale.x = marker.scale.y = marker.scale.z = size_m;
-  marker.color = rgba;
-  return marker;
-}
-
-}  // namespace
-
-visualization_msgs::MarkerArray toMarkers(const GraphSnapshot& graph,
-                                          const std::string& map_frame) {
+void addKeyframeMarkers(const GraphSnapshot& graph, const std::string& map_frame,
+                        visualization_msgs::MarkerArray* markers) {
   Marker keyframes = layer("keyframes", Marker::SPHERE_LIST, kSphere_m, colour(0, 0, 0), map_frame);
   Marker odometry =
       layer("odometry", Marker::LINE_LIST, kEdge_m, colour(0.5F, 0.5F, 0.5F), map_frame);
@@ -59,11 +40,29 @@ visualization_msgs::MarkerArray toMarkers(const GraphSnapshot& graph,
     lines.points.push_back(places.at(KeyframeId{edge->node(0).value}));
     lines.points.push_back(places.at(KeyframeId{edge->node(1).value}));
   }
+  for (const Marker& marker : {keyframes, odometry, loops}) markers->markers.push_back(marker);
+}
+
+/// rviz complains of lists without points.
+bool isEmptyList(const Marker& marker) {
+  return marker.type != Marker::TEXT_VIEW_FACING && marker.points.empty();
+}
+
+}  // namespace
+
+visualization_msgs::MarkerArray toMarkers(const GraphSnapshot& graph,
+                                          const std::string& map_frame) {
+  visualization_msgs::MarkerArray layers;
+  addKeyframeMarkers(graph, map_frame, &layers);
+  addWallMarkers(graph, map_frame, &layers);
+  addFloorMarkers(graph, map_frame, &layers);
 
   visualization_msgs::MarkerArray markers;
-  for (Marker& marker : markers.markers = {keyframes, odometry, loops}) {
-    if (marker.points.empty()) marker.action = Marker::DELETE;  // rviz complains of empty lists
-  }
+  markers.markers.emplace_back();
+  markers.markers.front().header.frame_id = map_frame;
+  markers.markers.front().action = Marker::DELETEALL;  // walls go, and their ids with them
+  std::remove_copy_if(layers.markers.begin(), layers.markers.end(),
+                      std::back_inserter(markers.markers), isEmptyList);
   return markers;
 }
 

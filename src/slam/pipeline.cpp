@@ -13,7 +13,7 @@ Pipeline::Pipeline(const SlamConfig& config)
       prefilter_(config.prefilter),
       odometry_(config.odometry),
       keyframes_(config.keyframes),
-      gatherer_(static_cast<std::size_t>(config.plane_segmentation.gathered_points)),
+      planes_(config.plane_segmentation),
       graph_slam_(config) {}
 
 std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
@@ -37,25 +37,19 @@ std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
   trajectory_.add(odometry->stamp_s, odometry->T_odom_base);
   watch.lap();
 
-  if (odometry->registered) {
-    gatherer_.add(odometry->deskewed, odometry->T_odom_base);
-  } else {
-    gatherer_.reset();  // poses before and after it do not fit together
-  }
+  planes_.addScan(odometry->deskewed, odometry->T_odom_base, odometry->registered);
   auto keyframe = keyframes_.process(
       {odometry->stamp_s, odometry->T_odom_base, odometry->covariance}, *odometry->deskewed);
+  report.keyframe_ms = watch.lap();
   if (keyframe) {
-    if (odometry->registered) {
-      keyframe->planes =
-          observedPlanes(segmentPlanes(gatherer_.take(), config_.plane_segmentation));
-    }
+    keyframe->planes = planes_.take();
     report.segment_ms = watch.lap();
     const KeyframeOutcome outcome = graph_slam_.addKeyframe(*keyframe);
     optimizations_.insert(optimizations_.end(), outcome.optimizations.begin(),
                           outcome.optimizations.end());
     report.keyframe = true;
+    report.keyframe_ms += watch.lap();
   }
-  report.keyframe_ms = watch.lap();
   scans_.push_back(report);
   return odometry->problem.empty() ? scan.remark : odometry->problem;
 }

@@ -15,7 +15,7 @@ import rospy
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import PointCloud2, PointField
 
-from mrpt_sgraphs.msg import ScanOdometry, SituationalGraph
+from mrpt_sgraphs.msg import KeyframePlanes, KeyframeStamped, ScanOdometry, SituationalGraph
 from ros_support import RosoutLog, wait_for
 
 XYZ = [('x', 'f'), ('y', 'f'), ('z', 'f')]
@@ -63,9 +63,13 @@ class BadInputTest(unittest.TestCase):
         cls.log = RosoutLog()
         cls.scans = []
         cls.graphs = []
+        cls.keyframes = []
+        cls.planes = []
         cls.subscribers = [
             rospy.Subscriber('/sgraphs/scan_odometry', ScanOdometry, cls.scans.append),
-            rospy.Subscriber('/sgraphs/graph', SituationalGraph, cls.graphs.append)]
+            rospy.Subscriber('/sgraphs/graph', SituationalGraph, cls.graphs.append),
+            rospy.Subscriber('/sgraphs/keyframe', KeyframeStamped, cls.keyframes.append),
+            rospy.Subscriber('/sgraphs/keyframe_planes', KeyframePlanes, cls.planes.append)]
         cls.publisher = rospy.Publisher('/points', PointCloud2, queue_size=100)
         wait_for(lambda: cls.publisher.get_num_connections() > 0
                  and all(s.get_num_connections() > 0 for s in cls.subscribers), 20.0)
@@ -91,7 +95,14 @@ class BadInputTest(unittest.TestCase):
 
     def tearDown(self):
         self.expect_it_goes_on()
+        self.expect_planes_once_for_every_keyframe()
         self.assertTrue(rosnode.rosnode_ping('/sgraphs/manager', max_count=1))
+
+    def expect_planes_once_for_every_keyframe(self):
+        def names(messages):
+            return sorted((message.session, message.header.stamp) for message in messages)
+        self.assertTrue(wait_for(lambda: names(self.planes) == names(self.keyframes), 3.0),
+                        'planes of %s, keyframes %s' % (names(self.planes), names(self.keyframes)))
 
     def test_empty_cloud(self):
         self.send(cloud_of([]))
@@ -157,6 +168,9 @@ class BadInputTest(unittest.TestCase):
         self.expect_it_goes_on()
         self.send(cloud_of(room_points()), after_s=20.0)
         self.expect_warning('not to be trusted', 'no scan for 20')
+        self.assertTrue(wait_for(lambda: self.planes, 3.0))
+        self.assertEqual(self.planes[0].header.frame_id, 'lidar')
+        self.assertGreaterEqual(len(self.planes[0].planes), 6, 'the room has as many sides')
 
     def test_time_going_back(self):
         self.expect_it_goes_on()

@@ -4,6 +4,7 @@
 """A bag played through the nodelets comes out as map -> odom, trajectory, graph and files, and no
 cloud is copied on its way."""
 
+import csv
 import itertools
 import math
 import os
@@ -19,6 +20,8 @@ import rospy
 import tf2_ros
 from nav_msgs.msg import Path
 from rosgraph_msgs.msg import Log
+from sensor_msgs.msg import PointCloud2
+from visualization_msgs.msg import MarkerArray
 
 from mrpt_sgraphs.msg import GraphFactor, OptimizationReport, SituationalGraph
 from mrpt_sgraphs.srv import Dump, Optimize, SaveMap
@@ -27,7 +30,8 @@ from ros_support import RosoutLog, wait_for
 FILES = ['trajectory.tum', 'odometry.tum', 'keyframes.tum', 'graph.json', 'graph.g2o', 'map.pcd',
          'optimizations.csv', 'scans.csv', 'report.json']
 INSIDE_TOPICS = ['points_filtered', 'points_deskewed', 'keyframe_points', 'keyframe',
-                 'scan_odometry']
+                 'scan_odometry', 'keyframe_decision', 'keyframe_planes']
+WALL_NAMESPACES = {'walls', 'wall_outlines', 'wall_ids', 'wall_observations'}
 
 
 def position(pose):
@@ -39,6 +43,10 @@ def truth_of(bag_path):
     with rosbag.Bag(bag_path) as bag:
         return {message.header.stamp.to_nsec() // 1000: position(message.pose.pose)
                 for _, message, _ in bag.read_messages(topics=['/truth'])}
+
+
+def dot(a, b):
+    return a.x * b.x + a.y * b.y + a.z * b.z
 
 
 def distances(positions):
@@ -59,7 +67,8 @@ class PipelineTest(unittest.TestCase):
             rospy.Subscriber('/sgraphs/' + name, kind,
                              lambda message, key=name: cls.latest.update({key: message}))
             for name, kind in [('trajectory', Path), ('graph', SituationalGraph),
-                               ('optimization', OptimizationReport)]]
+                               ('optimization', OptimizationReport), ('markers', MarkerArray),
+                               ('wall_points', PointCloud2)]]
         cls.subscribers.append(rospy.Subscriber('/diagnostics', rospy.AnyMsg, cls.on_diagnostics))
         wait_for(lambda: len(cls.poses()) >= len(cls.truth), timeout_s=30.0)
 
@@ -78,6 +87,18 @@ class PipelineTest(unittest.TestCase):
         true = distances([self.truth[stamp] for stamp in sorted(poses)])
         self.assertLess(max(abs(e - t) for e, t in zip(estimated, true)), 0.1)
 
+    @classmethod
+    def shown_namespaces(cls):
+        return {marker.ns for marker in cls.latest['markers'].markers}
+
+    def test_every_keyframe_has_its_planes(self):
+        def count(what, topic):
+            return len(self.addresses().get((what, topic), []))
+        keyframes = len(self.latest['graph'].keyframes)
+        self.assertTrue(wait_for(lambda: count('receive', 'keyframe_planes') == keyframes, 5.0))
+        self.assertEqual(count('publish', 'keyframe_planes'), keyframes)
+        self.assertEqual(count('publish', 'keyframe_points'), keyframes)
+
     def test_tf_leads_from_map_to_the_robot(self):
         for target, source in [('map', 'odom'), ('odom', 'base_link'), ('map', 'base_link')]:
             self.assertTrue(wait_for(
@@ -90,10 +111,37 @@ class PipelineTest(unittest.TestCase):
         self.assertGreater(len(graph.keyframes), 8)
         chain = [factor for factor in graph.factors if factor.type == 'odometry']
         self.assertEqual(len(chain), len(graph.keyframes) - 1)
-        ids = {keyframe.id for keyframe in graph.keyframes}
-        for factor in graph.factors:
+        for factor in chain:
             self.assertEqual(list(bytearray(factor.layers)), [GraphFactor.KEYFRAME] * 2)
-            self.assertLessEqual(set(factor.nodes), ids)
+
+    def test_every_factor_is_between_nodes_of_the_graph(self):
+        graph = self.latest['graph']
+        ids = {GraphFactor.KEYFRAME: {node.id for node in graph.keyframes},
+               GraphFactor.WALL: {node.id for node in graph.walls},
+               GraphFactor.ROOM: {node.id for node in graph.rooms},
+               GraphFactor.FLOOR: {node.id for node in graph.floors}}
+        for factor in graph.factors:
+            self.assertEqual(len(factor.layers), len(factor.nodes))
+            for layer, node in zip(bytearray(factor.layers), factor.nodes):
+                self.assertIn(node, ids[layer])
+
+    @unittest.skip('the graph takes no walls yet')
+    def test_walls_of_the_room_are_in_the_graph_and_shown(self):
+        walls = self.latest['graph'].walls
+        for width in [11.0, 8.5]:  # of the room, between walls that face each other
+            self.assertTrue(any(abs(a.distance + b.distance + width) < 0.05
+                                and dot(a.normal, b.normal) < -0.999
+                                for a, b in itertools.combinations(walls, 2)), width)
+        sights = [factor for factor in self.latest['graph'].factors
+                  if factor.type == 'wall_observation']
+        self.assertGreater(len(sights), 2 * len(walls))
+        for wall in walls:
+            self.assertGreaterEqual(len(wall.polygon), 3)
+            for corner in wall.polygon:
+                self.assertAlmostEqual(dot(wall.normal, corner), wall.distance, delta=0.05)
+        self.assertTrue(wait_for(lambda: WALL_NAMESPACES <= self.shown_namespaces(), 5.0))
+        self.assertTrue(wait_for(lambda: 'wall_points' in self.latest
+                                 and self.latest['wall_points'].width > 1000, 5.0))
 
     def test_dump_writes_every_file_and_every_scan(self):
         folder = os.path.join(tempfile.mkdtemp(), 'run')
@@ -104,6 +152,10 @@ class PipelineTest(unittest.TestCase):
             self.assertGreater(os.path.getsize(os.path.join(folder, name)), 0, name)
         with open(os.path.join(folder, 'trajectory.tum')) as lines:
             self.assertEqual(len(list(lines)), len(self.truth))
+        with open(os.path.join(folder, 'scans.csv')) as lines:
+            rows = list(csv.DictReader(lines))
+        for row in rows:
+            self.assertEqual(float(row['segment_ms']) > 0.0, row['keyframe'] == '1', row)
 
     def test_dump_says_why_it_cannot_write(self):
         answer = rospy.ServiceProxy('/sgraphs/dump', Dump)('/proc/nowhere')
@@ -129,18 +181,26 @@ class PipelineTest(unittest.TestCase):
         for name in [b'sgraphs/prefilter', b'sgraphs/odometry', b'sgraphs/graph_slam']:
             self.assertIn(name, self.diagnostics)
 
-    def test_a_cloud_keeps_its_address_from_publisher_to_subscriber(self):
+    @classmethod
+    def addresses(cls):
+        """{(publish or receive, topic): address of each cloud, or list of planes}"""
         trace = {}
-        for text in self.log.texts(Log.DEBUG):
+        for text in cls.log.texts(Log.DEBUG):
             match = re.fullmatch(r'(publish|receive) (\w+) (0x[0-9a-f]+)', text)
             if match:
                 what, topic, address = match.groups()
                 trace.setdefault((what, topic), []).append(address)
-        for topic, at_least in [('points_filtered', 100), ('points_deskewed', 100),
-                                ('keyframe_points', 5)]:
+        return trace
+
+    def test_a_cloud_keeps_its_address_from_publisher_to_subscriber(self):
+        trace = self.addresses()
+        for topic, at_least, subscribers in [('points_filtered', 100, 1),
+                                             ('points_deskewed', 100, 2),
+                                             ('keyframe_points', 5, 1), ('keyframe_planes', 5, 1)]:
             published = trace.get(('publish', topic), [])
+            received = trace.get(('receive', topic), [])
             self.assertGreater(len(published), at_least, topic)
-            self.assertEqual(published, trace.get(('receive', topic)), topic)
+            self.assertEqual(sorted(published * subscribers), sorted(received), topic)
 
     def test_nothing_is_serialized_inside_the_manager(self):
         master = rosgraph.Master(rospy.get_name())

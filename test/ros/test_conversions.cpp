@@ -4,41 +4,18 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "mrpt_sgraphs/ros/conversions.h"
-#include "mrpt_sgraphs/ros/markers.h"
+#include "some_graph.h"
+#include "support/random_geometry.h"
 
 namespace mrpt_sgraphs {
 namespace {
 
-Pose somePose(double x) {
-  Tangent tangent;
-  tangent << x, -2.0, 0.5, 0.1, -0.2, 0.3 * x;
-  return expPose(tangent);
-}
-
-GraphSnapshot threeKeyframes() {
-  GraphSnapshot graph;
-  graph.stamp_s = 1600000000.3;
-  for (std::uint64_t i = 0; i < 3; ++i) {
-    const double x = static_cast<double>(i);
-    KeyframeNode keyframe;
-    keyframe.id = KeyframeId{i};
-    keyframe.stamp_s = 1600000000.0 + 0.1 * x;
-    keyframe.T_map_base = keyframe.T_odom_base = somePose(x);
-    graph.keyframes.push_back(keyframe);
-  }
-  const auto add = [&graph](std::uint64_t from, std::uint64_t to, RelativePoseFactor::Kind kind) {
-    graph.factors.push_back(
-        {FactorId{graph.factors.size()},
-         std::make_shared<RelativePoseFactor>(KeyframeId{from}, KeyframeId{to}, Pose::Identity(),
-                                              Matrix6::Identity(), kind)});
-  };
-  add(0, 1, RelativePoseFactor::Kind::kOdometry);
-  add(1, 2, RelativePoseFactor::Kind::kOdometry);
-  add(0, 2, RelativePoseFactor::Kind::kLoopClosure);
-  return graph;
-}
+using test::somePose;
+using test::threeKeyframes;
 
 TEST(Conversions, APoseComesBackAsItWas) {
   const auto T = toPose(toPoseMsg(somePose(1.0)));
@@ -112,21 +89,97 @@ TEST(Conversions, TheGraphKeepsItsIdsAndItsFactors) {
   EXPECT_EQ(msg.factors[2].nodes, (std::vector<std::uint64_t>{0, 2}));
 }
 
-TEST(Markers, ShowEachLayerInItsOwnNamespace) {
-  const auto markers = toMarkers(threeKeyframes(), "map").markers;
-  ASSERT_EQ(markers.size(), 3U);
-  EXPECT_EQ(markers[0].ns, "keyframes");
-  EXPECT_EQ(markers[0].points.size(), 3U);
-  EXPECT_EQ(markers[1].ns, "odometry");
-  EXPECT_EQ(markers[1].points.size(), 4U);
-  EXPECT_EQ(markers[2].ns, "loop_closures");
-  EXPECT_EQ(markers[2].points.size(), 2U);
+TEST(Conversions, TheGraphHasItsWallsItsFloorsAndFactorsOfAllTypes) {
+  const GraphSnapshot graph = test::threeKeyframesBetweenWalls();
+  const SituationalGraph msg = toMsg(graph, "map");
+  ASSERT_EQ(msg.walls.size(), 2U);
+  const GraphWall& wall = msg.walls[0];
+  EXPECT_EQ(wall.id, 4U);
+  EXPECT_EQ(wall.normal.x, -1.0);
+  EXPECT_EQ(wall.distance, -3.0);
+  EXPECT_EQ(wall.floor, GraphKeyframe::NONE);
+  ASSERT_EQ(wall.polygon.size(), 4U);
+  EXPECT_EQ(wall.polygon[3].z, 2.5);
+  ASSERT_EQ(wall.holes.size(), 1U);
+  ASSERT_EQ(wall.holes[0].points.size(), 4U);
+  EXPECT_EQ(wall.holes[0].points[2].z, 2.0);
+  EXPECT_TRUE(msg.walls[1].polygon.empty());
+
+  ASSERT_EQ(msg.floors.size(), 1U);
+  EXPECT_EQ(msg.floors[0].normal.z, 1.0);
+  EXPECT_EQ(msg.floors[0].distance, -0.5);
+  EXPECT_EQ(msg.floors[0].centre.y, 0.5);
+
+  ASSERT_EQ(msg.factors.size(), 6U);
+  EXPECT_EQ(msg.factors[4].type, "wall_observation");
+  EXPECT_EQ(msg.factors[4].layers,
+            (std::vector<std::uint8_t>{GraphFactor::KEYFRAME, GraphFactor::WALL}));
+  EXPECT_EQ(msg.factors[4].nodes, (std::vector<std::uint64_t>{1, 4}));
+  EXPECT_EQ(msg.factors[5].type, "ground_observation");
+  EXPECT_EQ(msg.factors[5].layers[1], std::uint8_t{GraphFactor::FLOOR});
 }
 
-TEST(Markers, OfAnEmptyGraphRemoveWhatWasShown) {
-  for (const auto& marker : toMarkers(GraphSnapshot(), "map").markers) {
-    EXPECT_EQ(marker.action, visualization_msgs::Marker::DELETE);
+ObservedPlane somePlane(double x) {
+  test::RandomGeometry random(static_cast<unsigned>(x));
+  ObservedPlane plane;
+  plane.plane_base = {random.vector(1.0).normalized(), random.number(5.0)};
+  const Eigen::Matrix3d root =
+      Eigen::Matrix3d::NullaryExpr([&random] { return random.number(1.0); });
+  plane.covariance =
+      root * root.transpose() + Eigen::Matrix3d(Eigen::Vector3d(1, 2, 3).asDiagonal());
+  plane.covariance = plane.covariance.selfadjointView<Eigen::Upper>();
+  plane.centroid_base = random.vector(5.0);
+  for (int k = 0; k < 5; ++k) plane.extent_base.outline.push_back(random.vector(5.0));
+  plane.extent_base.holes.resize(2);
+  for (int k = 0; k < 3; ++k) plane.extent_base.holes[1].push_back(random.vector(5.0));
+  plane.area_m2 = random.number(10.0);
+  plane.points = 1234;
+  return plane;
+}
+
+TEST(Conversions, PlanesComeBackToTheLastBit) {
+  ObservedPlanes planes;
+  for (const double x : {1.0, 2.0, 3.0}) planes.push_back(somePlane(x));
+  std_msgs::Header header;
+  header.stamp = toRosTime(1600000000.3);
+  header.frame_id = "base_link";
+  const KeyframePlanes msg = toMsg(std::make_shared<const ObservedPlanes>(planes), header);
+  EXPECT_EQ(msg.header.stamp, header.stamp);
+  EXPECT_EQ(msg.planes[0].covariance[1], planes[0].covariance(0, 1)) << "by rows";
+
+  const ObservedPlanesConstPtr back = toObservedPlanes(msg);
+  ASSERT_NE(back, nullptr);
+  ASSERT_EQ(back->size(), planes.size());
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const ObservedPlane& a = planes[k];
+    const ObservedPlane& b = (*back)[k];
+    EXPECT_EQ(a.plane_base.normal, b.plane_base.normal);
+    EXPECT_EQ(a.plane_base.distance, b.plane_base.distance);
+    EXPECT_EQ(a.covariance, b.covariance);
+    EXPECT_EQ(a.centroid_base, b.centroid_base);
+    EXPECT_EQ(a.extent_base.outline, b.extent_base.outline);
+    EXPECT_EQ(a.extent_base.holes, b.extent_base.holes);
+    EXPECT_EQ(a.area_m2, b.area_m2);
+    EXPECT_EQ(a.points, b.points);
   }
+}
+
+TEST(Conversions, NoPlanesAreNotTheSameAsPlanesThatWereNotLookedFor) {
+  EXPECT_EQ(toObservedPlanes(toMsg(ObservedPlanesConstPtr(), std_msgs::Header())), nullptr);
+  const auto none = toObservedPlanes(toMsg(std::make_shared<const ObservedPlanes>(), {}));
+  ASSERT_NE(none, nullptr);
+  EXPECT_TRUE(none->empty());
+}
+
+TEST(Conversions, LeaveOutPlanesThatAreNone) {
+  const auto planes = std::make_shared<ObservedPlanes>(6, somePlane(1.0));
+  (*planes)[0].plane_base.normal *= 1.1;
+  (*planes)[1].plane_base.distance = std::nan("");
+  (*planes)[2].covariance(2, 2) = -1.0;
+  (*planes)[3].covariance(0, 1) = std::nan("");
+  (*planes)[4].extent_base.holes[1][0].x() = std::numeric_limits<double>::infinity();
+  const auto back = toObservedPlanes(toMsg(ObservedPlanesConstPtr(planes), std_msgs::Header()));
+  EXPECT_EQ(back->size(), 1U);
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ class SeeThrough {
   double lowest_view_m_ = 1e9;  ///< Along v.
 };
 
-/// Whether edges are those of a piece of furniture, or of a pillar.
-bool isFurniture(const SeeThrough::OpenEdges& edges);
+/// Whether edges are those of a piece of furniture, or of a pillar: seen over, or not wide and seen
+/// past at both ends; at one end will do for what stands close before a wall.
+bool isFurniture(const SeeThrough::OpenEdges& edges, bool has_wall_behind);
 
 }  // namespace mrpt_sgraphs

@@ -48,6 +48,9 @@ struct PlaneFrame {
   }
 };
 
+/// Whether the point lies within the outline and in none of the holes, whichever way round they go.
+bool contains(const FlatExtent& extent, const Eigen::Vector2d& point);
+
 /// The foot of an extent on the frame's plane, and back.
 FlatExtent flattened(const PlanarExtent& extent, const PlaneFrame& frame);
 PlanarExtent lifted(const FlatExtent& extent, const PlaneFrame& frame);

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "mrpt_sgraphs/KeyframePlanes.h"
 #include "mrpt_sgraphs/KeyframeStamped.h"
 #include "mrpt_sgraphs/OptimizationReport.h"
 #include "mrpt_sgraphs/ScanOdometry.h"
@@ -19,6 +20,7 @@
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
 #include "mrpt_sgraphs/frontend/odometry.h"
 #include "mrpt_sgraphs/frontend/raw_cloud.h"
+#include "mrpt_sgraphs/geometry/observed_plane.h"
 #include "mrpt_sgraphs/graph/snapshot.h"
 #include "mrpt_sgraphs/io/tum.h"
 #include "mrpt_sgraphs/solver/optimization_summary.h"
@@ -56,10 +58,18 @@ nav_msgs::Odometry toOdometry(const OdometryResult& result, const std_msgs::Head
 std::optional<ScanMotion> toScanMotion(const ScanOdometry& msg);
 KeyframeStamped toMsg(const Keyframe& keyframe, const std_msgs::Header& header,
                       const std::string& base_frame);
-/// Without its cloud, which comes as a message of its own. Nothing for a message whose pose is
-/// none.
+/// Without its cloud and its planes, which come as messages of their own. Nothing for a message
+/// whose pose is none.
 std::optional<Keyframe> toKeyframe(const KeyframeStamped& msg);
 
+/// @param planes  Null: nothing was observed.
+/// @param header  Its stamp is the keyframe's, its frame `base`.
+KeyframePlanes toMsg(const ObservedPlanesConstPtr& planes, const std_msgs::Header& header);
+/// Without those that are none: not finite, no direction or no covariance. Null where nothing was
+/// observed.
+ObservedPlanesConstPtr toObservedPlanes(const KeyframePlanes& msg);
+
+/// All but the rooms.
 SituationalGraph toMsg(const GraphSnapshot& graph, const std::string& map_frame);
 OptimizationReport toMsg(const OptimizationSummary& summary, const std::string& map_frame);
 nav_msgs::Path toMsg(const Trajectory& trajectory, const std::string& map_frame);

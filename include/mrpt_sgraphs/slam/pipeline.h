@@ -8,8 +8,8 @@
 
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
 #include "mrpt_sgraphs/frontend/odometry.h"
+#include "mrpt_sgraphs/frontend/plane_observer.h"
 #include "mrpt_sgraphs/frontend/prefilter.h"
-#include "mrpt_sgraphs/frontend/scan_gatherer.h"
 #include "mrpt_sgraphs/io/run_writer.h"
 #include "mrpt_sgraphs/slam/graph_slam.h"
 #include "mrpt_sgraphs/slam/scan_trajectory.h"
@@ -43,7 +43,7 @@ class Pipeline {
   Prefilter prefilter_;
   Odometry odometry_;
   KeyframeSelector keyframes_;
-  ScanGatherer gatherer_;
+  PlaneObserver planes_;
   GraphSlam graph_slam_;
   ScanTrajectory trajectory_;
   std::vector<OptimizationSummary> optimizations_;
