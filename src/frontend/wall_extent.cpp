@@ -65,6 +65,14 @@ CellSet WallExtent::onGridOf(const WallExtent& other) const {
   return cells;
 }
 
+CellSet WallExtent::cellsOn(const PlaneFrame& frame, double cell_m) const {
+  CellSet result;
+  forEachCell([&](const Eigen::Vector3d& centre_map, double) {
+    result.add(cellAt(frame.flat(centre_map), cell_m));
+  });
+  return result;
+}
+
 double WallExtent::sharedArea_m2(const WallExtent& other) const {
   return static_cast<double>(sharedSize(cells_, other.onGridOf(*this))) * cell_m_ * cell_m_;
 }

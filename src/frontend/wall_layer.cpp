@@ -54,8 +54,10 @@ std::optional<SurfaceFit> WallLayer::fitTo(const WallTrack& track, const Observe
   const SurfaceFit fit =
       fitOf(seen, T_map_base, track, config_.floor, way.uncertaintyFrom(track.sightings, graph));
   if (fit.chi2 > config_.max_chi2) return std::nullopt;
-  const std::optional<double> gap_m = track.extent.gap_m(track.extent.drawn(extent_map));
+  const WallExtent drawn = track.extent.drawn(extent_map);
+  const std::optional<double> gap_m = track.extent.gap_m(drawn);
   if (!gap_m || *gap_m > config_.max_gap_m) return std::nullopt;
+  if (isDivided(track.extent, drawn)) return std::nullopt;
   return fit;
 }
 
@@ -122,6 +124,8 @@ bool WallLayer::associate(const WayToNewest& way, LayeredGraph* graph) {
     if (taken[k] || !isWallLike((*planes)[k], T_map_base)) continue;
     begin({{newest, k, {}, 0.0}}, T_map_base * (*planes)[k].plane_base, way.way_m(), *graph);
   }
+  lookThrough(newest, *graph);
+  if (giveUpFurniture(graph)) changed = true;
   if (promote(graph)) changed = true;
   forgetUnseen(way.way_m());
   erasures_ = graph->erasures();
@@ -135,6 +139,7 @@ TrackNumber WallLayer::begin(std::vector<SurfaceSighting> sightings, const Plane
   track.sightings = std::move(sightings);
   track.seen_at_m = seen_at_m;
   redraw(config_.cell_m, graph, &track);
+  track.see_through = SeeThrough(track.extent.frame());
   tracks_.emplace(next_, std::move(track));
   return next_++;
 }
@@ -148,7 +153,7 @@ void WallLayer::addFactor(SurfaceSighting* sighting, WallId wall, LayeredGraph* 
 bool WallLayer::promote(LayeredGraph* graph) {
   bool changed = false;
   for (auto& [number, track] : tracks_) {
-    if (track.id || keyframesOf(track.sightings) < config_.min_sightings) continue;
+    if (track.id || track.is_furniture || keyframesOf(track.sightings) < config_.min_sightings) continue;
     if (track.extent.area_m2() < config_.min_wall_area_m2) continue;
     track.id = graph->addWall(track.plane_map, {});
     for (SurfaceSighting& sighting : track.sightings) addFactor(&sighting, *track.id, graph);

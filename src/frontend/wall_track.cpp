@@ -3,6 +3,8 @@
 
 #include "mrpt_sgraphs/frontend/wall_track.h"
 
+#include "mrpt_sgraphs/factors/wall_pair.h"
+
 namespace mrpt_sgraphs {
 
 PlanarExtent operator*(const Pose& T_a_b, const PlanarExtent& extent_b) {
@@ -35,6 +37,14 @@ void extend(const SurfaceSighting& sighting, const LayeredGraph& graph, WallTrac
   if (track->extent.area_m2() == area_m2) return;  // nothing new of it
   track->box_map = track->extent.box_map();
   track->outline_map.reset();
+}
+
+bool isFree(const WallTrack& track, const LayeredGraph& graph) {
+  if (!track.id) return true;
+  for (const FactorLink& link : graph.otherFactorsOf(*track.id)) {
+    if (dynamic_cast<const WallPairFactor*>(graph.factor(link.id).get()) == nullptr) return false;
+  }
+  return true;
 }
 
 }  // namespace mrpt_sgraphs

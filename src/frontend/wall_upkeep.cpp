@@ -18,15 +18,6 @@ bool hasMoved(const Pose& from, const Pose& to, double cell_m) {
   return motion.head<3>().norm() + kReach_m * motion.tail<3>().norm() > cell_m;
 }
 
-/// Nothing but sightings and pairs ties the track's wall to the rest.
-bool isFree(const WallTrack& track, const LayeredGraph& graph) {
-  if (!track.id) return true;
-  for (const FactorLink& link : graph.otherFactorsOf(*track.id)) {
-    if (dynamic_cast<const WallPairFactor*>(graph.factor(link.id).get()) == nullptr) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 bool WallLayer::maintainAfterLoop(const WayToNewest& way, LayeredGraph* graph) {
@@ -146,6 +137,7 @@ std::optional<SurfaceFit> WallLayer::mergeFit(const WallTrack& a, const WallTrac
   if (fit.chi2 > gate.widening * config_.max_chi2) return std::nullopt;
   const std::optional<double> gap_m = a.extent.gap_m(b.extent);
   if (!gap_m || *gap_m > config_.max_gap_m) return std::nullopt;
+  if (isDivided(a.extent, b.extent)) return std::nullopt;
   if (std::abs(back_m) > std::abs(fit.offset_m)) fit.offset_m = -back_m;
   return fit;
 }
@@ -176,6 +168,8 @@ TrackNumber WallLayer::merge(TrackNumber a, TrackNumber b, LayeredGraph* graph) 
       [](const SurfaceSighting& x, const SurfaceSighting& y) { return x.keyframe < y.keyframe; });
   stays.sightings = std::move(all);
   stays.seen_at_m = std::max(stays.seen_at_m, goes.seen_at_m);
+  stays.see_through.add(goes.see_through);
+  stays.is_furniture = stays.is_furniture && goes.is_furniture;
   stays.apart.insert(goes.apart.begin(), goes.apart.end());
   if (stays.id) {
     graph->setPlane(*stays.id,

@@ -43,6 +43,9 @@ class SeeThrough {
 
   const PlaneFrame& frame() const { return frame_; }
 
+  /// The surface was found to lie a little elsewhere.
+  void moveTo(const Plane& plane_map) { frame_ = PlaneFrame(plane_map, frame_.origin); }
+
  private:
   PlaneFrame frame_;
   CellSet passed_;

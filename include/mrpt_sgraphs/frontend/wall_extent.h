@@ -37,6 +37,24 @@ class WallExtent {
   Eigen::Vector3d centre_map() const;
   Eigen::AlignedBox3d box_map() const;
 
+  /// The centre of each cell, in the map, and its area [m^2].
+  template <typename Visit>
+  void forEachCell(const Visit& visit) const {
+    cells_.forEach([&](Cell cell) {
+      const Eigen::Vector2d centre((cell.column + 0.5) * cell_m_, (cell.row + 0.5) * cell_m_);
+      visit(frame_.lifted(centre), cell_m_ * cell_m_);
+    });
+  }
+
+  /// Of the box around it, in the plane.
+  template <typename Visit>
+  void forEachCorner(const Visit& visit) const {
+    for (const Eigen::Vector3d& corner : corners_map()) visit(corner);
+  }
+
+  /// Its cells on another grid.
+  CellSet cellsOn(const PlaneFrame& frame, double cell_m) const;
+
   double sharedArea_m2(const WallExtent& other) const;
 
   /// The way along the wall from one to the other, at a height at which both were seen: surfaces

@@ -83,6 +83,19 @@ class WallLayer {
   bool promote(LayeredGraph* graph);
   void forgetUnseen(double way_m);
 
+  /// Where the newest keyframe's rays went through surfaces near it, and which of these are
+  /// furniture then.
+  void lookThrough(KeyframeId newest, const LayeredGraph& graph);
+  /// Whether a wall stands as near behind the track as one does behind a shelf.
+  bool hasWallBehind(const WallTrack& track) const;
+  bool giveUpFurniture(LayeredGraph* graph);
+
+  /// Whether another wall stands between two extents of one surface.
+  bool isDivided(const WallExtent& a, const WallExtent& b) const;
+  /// The sightings beyond a wall that stands on the track, if there are such on either side of it.
+  std::vector<SurfaceSighting> beyondDivision(const WallTrack& track,
+                                              const LayeredGraph& graph) const;
+
   bool maintain(const Gate& gate, LayeredGraph* graph);
   void dropErased(LayeredGraph* graph);
   void refreshPlanes(const LayeredGraph& graph);

@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "mrpt_sgraphs/frontend/see_through.h"
 #include "mrpt_sgraphs/frontend/surface_sighting.h"
 #include "mrpt_sgraphs/frontend/wall_extent.h"
 
@@ -22,6 +23,8 @@ struct WallTrack : SurfaceTrack {
   WallExtent extent;
   Eigen::AlignedBox3d box_map;  ///< Around the extent.
   double seen_at_m = 0.0;       ///< The way that the robot had gone at the last sighting.
+  SeeThrough see_through;
+  bool is_furniture = false;    ///< Was seen over, or past its ends: never a wall.
   bool grown = true;            ///< Since it was last compared with the others.
   std::optional<PlanarExtent> outline_map;  ///< Of the extent, on its grid; none after a change.
   std::set<TrackNumber> apart;              ///< What was split from it: not to be merged again.
@@ -32,6 +35,9 @@ void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track);
 
 /// One more sighting, and the extent with it.
 void extend(const SurfaceSighting& sighting, const LayeredGraph& graph, WallTrack* track);
+
+/// Nothing but sightings and pairs ties the track's wall to the rest.
+bool isFree(const WallTrack& track, const LayeredGraph& graph);
 
 PlanarExtent operator*(const Pose& T_a_b, const PlanarExtent& extent_b);
 
