@@ -6,11 +6,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mrpt_sgraphs/geometry/cell_outline.h"
 #include "mrpt_sgraphs/geometry/plane_covariance.h"
 #include "plane_cells.h"
-#include "plane_cuts.h"
 #include "plane_growing.h"
 #include "plane_points.h"
 
@@ -28,6 +28,30 @@ constexpr double kSampling_m = 0.5;
 constexpr double kMaxNormalSigma_rad = 0.05;
 /// One sigma of where the points are: a narrower strip is a jamb, or the side of something round.
 constexpr double kMinSpread_m = 0.08;
+
+/// A plane among the others of its scan.
+struct PlaneCandidate {
+  PlanePoints points;
+  MeasuredPlane measured;
+};
+
+/// The line in which another plane crosses, in a plane's frame: `side` is the distance from it [m].
+struct Crossing {
+  Eigen::Vector2f normal;
+  float distance = 0.0F;
+
+  float side(const Eigen::Vector2f& local) const { return normal.dot(local) - distance; }
+};
+
+/// Nothing for planes that meet at less than 30 degrees.
+std::optional<Crossing> crossingOf(const PlaneFrame& frame, const Plane& other) {
+  constexpr double kMaxCosine = 0.87;
+  if (std::abs(frame.normal.dot(other.normal)) > kMaxCosine) return std::nullopt;
+  const Eigen::Vector2d direction(other.normal.dot(frame.u), other.normal.dot(frame.v));
+  const double length = direction.norm();
+  const double distance = other.distance - other.normal.dot(frame.origin);
+  return Crossing{(direction / length).cast<float>(), static_cast<float>(distance / length)};
+}
 
 /// The cells that are in both.
 CellSet shared(const CellSet& a, const CellSet& b) {
@@ -138,7 +162,6 @@ class Segmentation {
       const MeasuredPlane measured = measurePlane(&on_plane);
       if (hasEnough(on_plane)) candidates.push_back({std::move(on_plane), measured});
     }
-    cutAtCrossings(config_.min_points, &candidates);
     for (const PlaneCandidate& candidate : candidates) {
       std::vector<Crossing> crossings;
       for (const PlaneCandidate& other : candidates) {

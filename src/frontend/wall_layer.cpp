@@ -27,6 +27,16 @@ bool WallLayer::isBelieved(const Match& match, const std::vector<Match>& all) co
   return true;
 }
 
+bool WallLayer::isSameSurface(const Plane& a, const Eigen::Vector3d& point_of_a, const Plane& b) {
+  return a.normal.dot(b.normal) > std::cos(kSameSurface_rad) &&
+         std::abs(b.normal.dot(point_of_a) - b.distance) < kSameSurface_m;
+}
+
+bool WallLayer::overlap(const WallExtent& a, const WallExtent& b) {
+  constexpr double kShare = 0.2;  // of the smaller
+  return a.sharedArea_m2(b) > kShare * std::min(a.area_m2(), b.area_m2());
+}
+
 bool WallLayer::isWallLike(const ObservedPlane& plane, const Pose& T_map_base) const {
   if (plane.area_m2 < config_.min_area_m2 || !isSound(plane)) return false;
   const double up = (T_map_base.linear() * plane.plane_base.normal).z();
@@ -53,11 +63,14 @@ std::optional<SurfaceFit> WallLayer::fitTo(const WallTrack& track, const Observe
 
   const SurfaceFit fit =
       fitOf(seen, T_map_base, track, config_.floor, way.uncertaintyFrom(track.sightings, graph));
-  if (fit.chi2 > config_.max_chi2) return std::nullopt;
+  const bool agrees = fit.chi2 <= config_.max_chi2;
+  if (!agrees && !isSameSurface(T_map_base * seen.plane_base, centroid_map, track.plane_map)) {
+    return std::nullopt;
+  }
   const WallExtent drawn = track.extent.drawn(extent_map);
+  if (!agrees && !overlap(track.extent, drawn)) return std::nullopt;
   const std::optional<double> gap_m = track.extent.gap_m(drawn);
   if (!gap_m || *gap_m > config_.max_gap_m) return std::nullopt;
-  if (isDivided(track.extent, drawn)) return std::nullopt;
   return fit;
 }
 
@@ -89,7 +102,10 @@ bool WallLayer::isCoplanarWithAll(const std::vector<SurfaceSighting>& sightings,
     const ObservedPlane& other = observedBy(*sighting, graph);
     const double chi2 =
         chi2Between(plane.plane_base, plane.covariance, other.plane_base, other.covariance);
-    if (chi2 > config_.max_chi2) return false;
+    if (chi2 > config_.max_chi2 &&
+        !isSameSurface(plane.plane_base, plane.centroid_base, other.plane_base)) {
+      return false;
+    }
   }
   return true;
 }

@@ -129,9 +129,6 @@ std::vector<SurfaceSighting> WallLayer::strangersIn(const WallTrack& track,
     return those(all, in_largest, false);
   }
 
-  std::vector<SurfaceSighting> beyond = beyondDivision(track, graph);
-  if (!beyond.empty()) return beyond;
-
   const double before = meanOf(chi2Of(all, track.plane_map, graph));
   if (before < config_.split_chi2) return {};
   std::vector<bool> front = inFront(all, track.plane_map, graph);

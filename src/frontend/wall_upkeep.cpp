@@ -113,6 +113,9 @@ std::optional<SurfaceFit> WallLayer::mergeFit(const WallTrack& a, const WallTrac
   }
   if (!isFree(a, graph) && !isFree(b, graph)) return std::nullopt;
 
+  const bool is_same = isSameSurface(a.plane_map, centres_map[0], b.plane_map) &&
+                       isSameSurface(b.plane_map, centres_map[1], a.plane_map) &&
+                       overlap(a.extent, b.extent);
   // Two that one keyframe saw are as far apart as it saw them; else each is known as well as the
   // way from the newest keyframe to where it was seen.
   bool share_a_keyframe = false;
@@ -122,7 +125,7 @@ std::optional<SurfaceFit> WallLayer::mergeFit(const WallTrack& a, const WallTrac
     if (shared == b.sightings.end()) break;
     if (shared->keyframe != sighting.keyframe) continue;
     share_a_keyframe = true;
-    if (!isCoplanarWithAll(b.sightings, sighting.keyframe, observedBy(sighting, graph), graph)) {
+    if (!is_same && !isCoplanarWithAll(b.sightings, sighting.keyframe, observedBy(sighting, graph), graph)) {
       return std::nullopt;
     }
   }
@@ -134,10 +137,9 @@ std::optional<SurfaceFit> WallLayer::mergeFit(const WallTrack& a, const WallTrac
   const Pose T_map_base = graph.pose(gate.way.newest());
   SurfaceFit fit = fitOf(seenFrom(T_map_base, a, config_.floor, centres_map[0]), T_map_base, b,
                          config_.floor, way);
-  if (fit.chi2 > gate.widening * config_.max_chi2) return std::nullopt;
+  if (!is_same && fit.chi2 > gate.widening * config_.max_chi2) return std::nullopt;
   const std::optional<double> gap_m = a.extent.gap_m(b.extent);
   if (!gap_m || *gap_m > config_.max_gap_m) return std::nullopt;
-  if (isDivided(a.extent, b.extent)) return std::nullopt;
   if (std::abs(back_m) > std::abs(fit.offset_m)) fit.offset_m = -back_m;
   return fit;
 }

@@ -162,35 +162,6 @@ TEST(PlaneSegmentation, ADoorIsAHoleAndAWideGapMakesTwo) {
   EXPECT_EQ(wallWithOpening(2.2, 0.0).size(), 2U);
 }
 
-/// Two rooms side by side, a door of 1.5 m in the wall between them from the back wall at y = 3 on;
-/// this wall is 0.2 m thick, or only a cabinet of its depth and of 1.2 m height.
-FlatWorld backWallOfTwoRooms(bool wall_between) {
-  FlatWorld world;
-  const double height_m = wall_between ? 2.8 : 1.2;
-  const double reach_m = 1.4;
-  const Vector3d up(0, 0, height_m);
-  world.rectangles = {{{0, 3 - reach_m, 0}, {0, reach_m, 0}, up},
-                      {{0.2, 3 - reach_m, 0}, {0, reach_m, 0}, up},
-                      {{0, 3 - reach_m, 0}, {0.2, 0, 0}, up}};
-  if (wall_between) {
-    world.rectangles.push_back({{-4, 3, 0}, {4, 0, 0}, {0, 0, 2.8}});
-    world.rectangles.push_back({{0.2, 3, 0}, {4, 0, 0}, {0, 0, 2.8}});
-  } else {
-    world.rectangles.push_back({{-4, 3, 0}, {8, 0, 0}, {0, 0, 2.8}});
-  }
-  return world;
-}
-
-TEST(PlaneSegmentation, WallsInOneLineEndAtTheWallBetweenThem) {
-  const Pattern pattern = Pattern::spinning(64, 1800, -35 * kDegree, 35 * kDegree);
-  const auto wallsSeen = [&](bool wall_between) {
-    const FlatWorld world = backWallOfTwoRooms(wall_between);
-    return on(-Vector3d::UnitY(), -3.0, seenFrom(world, pattern, at(-1.0, 0, 1.2))).size();
-  };
-  EXPECT_EQ(wallsSeen(true), 2U);
-  EXPECT_EQ(wallsSeen(false), 1U);
-}
-
 TEST(PlaneSegmentation, TheFacesOfAThinWallAreTwo) {
   // seen from either side on the way through a door at its end
   FlatWorld world;

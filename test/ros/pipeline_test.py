@@ -125,7 +125,6 @@ class PipelineTest(unittest.TestCase):
             for layer, node in zip(bytearray(factor.layers), factor.nodes):
                 self.assertIn(node, ids[layer])
 
-    @unittest.skip('the graph takes no walls yet')
     def test_walls_of_the_room_are_in_the_graph_and_shown(self):
         walls = self.latest['graph'].walls
         for width in [11.0, 8.5]:  # of the room, between walls that face each other

@@ -46,12 +46,6 @@ class WallExtent {
     });
   }
 
-  /// Of the box around it, in the plane.
-  template <typename Visit>
-  void forEachCorner(const Visit& visit) const {
-    for (const Eigen::Vector3d& corner : corners_map()) visit(corner);
-  }
-
   /// Its cells on another grid.
   CellSet cellsOn(const PlaneFrame& frame, double cell_m) const;
 

@@ -47,8 +47,11 @@ class WallLayer {
   const std::map<TrackNumber, WallTrack>& tracks() const { return tracks_; }
 
  private:
-  /// Planes this near are of one surface; farther ones, seen together, are of two.
-  static constexpr double kSameSurface_m = 0.1;
+  /// Planes this near and parallel are of one surface if they overlap, whatever their covariances
+  /// say: those know nothing of scans that a hand has shaken. Farther ones, seen together, are of
+  /// two.
+  static constexpr double kSameSurface_m = 0.15;
+  static constexpr double kSameSurface_rad = 0.035;
   /// Surfaces within so many max_offset_m are rivals of the one that fits best.
   static constexpr double kRivals = 3.0;
 
@@ -66,6 +69,10 @@ class WallLayer {
     double widening;
   };
   using Tracks = std::map<TrackNumber, WallTrack>;
+
+  /// Whether `a` is that near to `b` at one of its points.
+  static bool isSameSurface(const Plane& a, const Eigen::Vector3d& point_of_a, const Plane& b);
+  static bool overlap(const WallExtent& a, const WallExtent& b);
 
   bool isWallLike(const ObservedPlane& plane, const Pose& T_map_base) const;
   /// Not too far, and nothing else is nearly as likely that excludes it: another surface for the
@@ -89,12 +96,6 @@ class WallLayer {
   /// Whether a wall stands as near behind the track as one does behind a shelf.
   bool hasWallBehind(const WallTrack& track) const;
   bool giveUpFurniture(LayeredGraph* graph);
-
-  /// Whether another wall stands between two extents of one surface.
-  bool isDivided(const WallExtent& a, const WallExtent& b) const;
-  /// The sightings beyond a wall that stands on the track, if there are such on either side of it.
-  std::vector<SurfaceSighting> beyondDivision(const WallTrack& track,
-                                              const LayeredGraph& graph) const;
 
   bool maintain(const Gate& gate, LayeredGraph* graph);
   void dropErased(LayeredGraph* graph);
