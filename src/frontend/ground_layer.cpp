@@ -11,42 +11,49 @@
 namespace mrpt_sgraphs {
 namespace {
 
-/// Where the vertical of the map through the base's origin meets the plane, above it [m].
+/// Where the vertical through the base's origin meets the plane, above it [m].
 double heightUnderBase(const Plane& plane_base, const Eigen::Vector3d& up_base) {
   return plane_base.distance / plane_base.normal.dot(up_base);
 }
 
 }  // namespace
 
-std::optional<std::size_t> GroundLayer::groundAmong(const ObservedPlanes& planes,
-                                                    const Pose& T_map_base,
-                                                    const Pose& T_odom_base) const {
-  const Eigen::Vector3d up_base = T_map_base.linear().transpose() * Eigen::Vector3d::UnitZ();
-  std::vector<double> expected_m;
-  if (last_) {
-    // A robot that drives stands as high above the ground as before; one that is carried or gets up
-    // has the ground where odometry leaves it.
-    const Plane by_odometry = inverseTimes(T_odom_base, last_->T_odom_base * last_->plane_base);
-    expected_m = {last_->plane_base.distance, heightUnderBase(by_odometry, up_base)};
+Eigen::Vector3d GroundLayer::up_map(const LayeredGraph& graph) const {
+  for (const Level& level : levels_) {
+    if (level.id && graph.contains(*level.id)) return graph.plane(*level.id).normal;
   }
+  return Eigen::Vector3d::UnitZ();
+}
+
+std::optional<std::size_t> GroundLayer::groundAmong(const ObservedPlanes& planes,
+                                                    const Eigen::Vector3d& up_base) const {
+  const bool has_level = std::any_of(levels_.begin(), levels_.end(),
+                                     [](const Level& level) { return level.id.has_value(); });
+  const double least_up = std::cos(has_level ? config_.max_tilt_rad : config_.max_map_tilt_rad);
   std::optional<std::size_t> ground;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const ObservedPlane& plane = planes[k];
     if (plane.area_m2 < config_.min_area_m2 || !isSound(plane)) continue;
-    if (plane.plane_base.normal.dot(up_base) < std::cos(config_.max_tilt_rad)) continue;
+    if (plane.plane_base.normal.dot(up_base) < least_up) continue;
     const double height_m = heightUnderBase(plane.plane_base, up_base);
     if (height_m > config_.max_step_m) continue;  // nothing to stand on
-    double off_m = last_ ? std::numeric_limits<double>::infinity() : height_m;
-    for (const double expected : expected_m) {
-      off_m = std::min(off_m, std::abs(height_m - expected));
-    }
-    if (last_ && off_m > config_.max_step_m) continue;
-    if (off_m >= least) continue;
+    // at first the lowest one
+    const double off_m = standing_ ? std::abs(height_m - standing_->height_m) : height_m;
+    if ((standing_ && off_m > config_.max_step_m) || off_m >= least) continue;
     least = off_m;
     ground = k;
   }
   return ground;
+}
+
+void GroundLayer::stand(double height_m, double way_m) {
+  // Slowly: on stairs the floor below falls behind step by step, and must not take the height
+  // along.
+  constexpr double kShare = 0.05;
+  if (!standing_) standing_ = Standing{height_m, way_m};
+  standing_->height_m += kShare * (height_m - standing_->height_m);
+  standing_->seen_at_m = way_m;
 }
 
 GroundLayer::Level* GroundLayer::levelOf(const ObservedPlane& ground, const WayToNewest& way,
@@ -68,11 +75,12 @@ bool GroundLayer::associate(const WayToNewest& way, LayeredGraph* graph) {
   const KeyframeId newest = way.newest();
   const ObservedPlanesConstPtr planes = graph->attributes(newest).planes;
   if (planes == nullptr) return false;
-  const Pose T_odom_base = graph->attributes(newest).T_odom_base;
-  const std::optional<std::size_t> index = groundAmong(*planes, graph->pose(newest), T_odom_base);
+  if (standing_ && way.way_m() - standing_->seen_at_m > config_.forget_after_m) standing_.reset();
+  const Eigen::Vector3d up_base = graph->pose(newest).linear().transpose() * up_map(*graph);
+  const std::optional<std::size_t> index = groundAmong(*planes, up_base);
   if (!index) return false;
   const ObservedPlane& ground = (*planes)[*index];
-  last_ = LastGround{T_odom_base, ground.plane_base};
+  stand(heightUnderBase(ground.plane_base, up_base), way.way_m());
 
   refreshPlanes(*graph);
   SurfaceSighting sighting{newest, *index, {}, 0.0};

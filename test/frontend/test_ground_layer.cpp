@@ -162,6 +162,30 @@ TEST_F(GroundLayerTest, ATableIsNotTheGround) {
   EXPECT_EQ(graph_.size(Layer::kFloor), 1U);
 }
 
+/// From the stairs the floor below is seen whole: it is not what the robot stands on.
+TEST_F(GroundLayerTest, TheFloorBelowTheStairsIsNotStoodOn) {
+  walkOn(0.0, 8);
+  for (int k = 1; k <= 14; ++k) {
+    const double height_m = kSensorHeight_m + 0.2 * k;
+    step(height_m, {levelPlane(at(height_m), 0.0, 6.0)});
+  }
+  walkOn(2.8, 8);
+  EXPECT_EQ(graph_.size(Layer::kFloor), 2U);
+  EXPECT_FALSE(floorOf(12));
+  EXPECT_EQ(floorOf(29), FloorId{1});
+}
+
+/// A map that was begun tilted.
+TEST_F(GroundLayerTest, ATiltedStartHasItsLevelToo) {
+  constexpr double kTilt_rad = 0.08;
+  for (int k = 0; k < 8; ++k) {
+    const double ground_m = -std::tan(kTilt_rad) * k;
+    const double height_m = ground_m + kSensorHeight_m;
+    step(height_m, {levelPlane(at(height_m), ground_m, 6.0, kTilt_rad)});
+  }
+  EXPECT_EQ(graph_.size(Layer::kFloor), 1U);
+}
+
 /// The height drifts by 0.3 m and more on the way round through the other storey.
 TEST_F(GroundLayerTest, DriftIsNoNewLevel) {
   walkOn(0.0, 10);

@@ -27,14 +27,17 @@ class GroundLayer {
     double seen_at_m = 0.0;     ///< The way that the robot had gone.
   };
 
-  /// The last ground, as its keyframe saw it.
-  struct LastGround {
-    Pose T_odom_base;
-    Plane plane_base;
+  /// How far below the base's origin the robot stands on something: what it sees of a storey below
+  /// from the stairs is not it.
+  struct Standing {
+    double height_m = 0.0;   ///< Negative where the base is above the ground.
+    double seen_at_m = 0.0;  ///< The way that the robot had gone.
   };
 
-  std::optional<std::size_t> groundAmong(const ObservedPlanes& planes, const Pose& T_map_base,
-                                         const Pose& T_odom_base) const;
+  Eigen::Vector3d up_map(const LayeredGraph& graph) const;
+  std::optional<std::size_t> groundAmong(const ObservedPlanes& planes,
+                                         const Eigen::Vector3d& up_base) const;
+  void stand(double height_m, double way_m);
   Level* levelOf(const ObservedPlane& ground, const WayToNewest& way, const LayeredGraph& graph);
   void refreshPlanes(const LayeredGraph& graph);
   void addFactor(SurfaceSighting* sighting, FloorId floor, LayeredGraph* graph) const;
@@ -42,7 +45,7 @@ class GroundLayer {
 
   GroundLayerConfig config_;
   std::vector<Level> levels_;
-  std::optional<LastGround> last_;
+  std::optional<Standing> standing_;
 };
 
 }  // namespace mrpt_sgraphs

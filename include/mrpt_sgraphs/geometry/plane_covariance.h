@@ -17,8 +17,7 @@ struct SigmaFloor {
 /// A plane's error as it is felt at a point: how the turns along the tangent basis and the offset
 /// *at that point* make up the PlaneTangent, whose distance is at the origin.
 ///
-///     n . p = d for the points p of the plane: turned by B [a; b] about c, d changes by c . B [a;
-///     b]
+///     n . p = d for the points p of the plane: turned by B [a; b] about c, d changes by c . B [a; b]
 ///
 /// @param point  c, in the frame of the plane [m].
 inline Eigen::Matrix3d tangentFromPoint(const Plane& plane, const Eigen::Vector3d& point) {
