@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -89,25 +90,45 @@ struct Cover {
   /// Drops the cells on a line that none lie beside.
   void dropStrip(const Crossing& crossing) {
     const float width = static_cast<float>(cell_m);
-    const CellBox& box = cells.box();
-    const Eigen::Vector2f size(static_cast<float>(box.columns()), static_cast<float>(box.rows()));
-    const Eigen::Vector2f half = 0.5F * width * size;
-    const float reach = crossing.normal.cwiseAbs().dot(half) + width;
-    if (std::abs(crossing.side(corner + half)) > reach) return;
+    // the line crosses each row, or where it runs along the rows each column, in a few cells
+    const int across = std::abs(crossing.normal[0]) >= std::abs(crossing.normal[1]) ? 0 : 1;
+    const int along = 1 - across;
+    const CellBox box = cells.box();
+    const std::array<int, 2> low{box.min.column, box.min.row};
+    const std::array<int, 2> high{box.max.column, box.max.row};
+    const float half = width / std::abs(crossing.normal[across]);
     std::vector<Cell> alone;
-    cells.forEach([&](Cell cell) {
-      const Eigen::Vector2f centre =
-          corner + width * Eigen::Vector2f(static_cast<float>(cell.column) + 0.5F,
-                                           static_cast<float>(cell.row) + 0.5F);
-      const float side = crossing.side(centre);
-      if (std::abs(side) > width) return;
-      const Eigen::Vector2f on_line = centre - side * crossing.normal;
-      for (const float steps : {-3.0F, -2.0F, 2.0F, 3.0F}) {
-        if (cells.contains(cellOf(on_line + steps * width * crossing.normal))) return;
+    for (int line = low[along]; line <= high[along]; ++line) {
+      const float at = corner[along] + width * (static_cast<float>(line) + 0.5F);
+      const float middle =
+          (crossing.distance - crossing.normal[along] * at) / crossing.normal[across];
+      const float from = (middle - half - corner[across]) / width;
+      const float to = (middle + half - corner[across]) / width;
+      if (to < static_cast<float>(low[across]) || from > static_cast<float>(high[across]) + 1.0F) {
+        continue;
       }
-      alone.push_back(cell);
-    });
+      const int last = std::min(high[across], static_cast<int>(std::floor(to)));
+      for (int k = std::max(low[across], static_cast<int>(std::floor(from))); k <= last; ++k) {
+        const Cell cell = across == 0 ? Cell{k, line} : Cell{line, k};
+        if (cells.contains(cell) && isAlone(cell, crossing)) alone.push_back(cell);
+      }
+    }
     for (const Cell cell : alone) cells.remove(cell);
+  }
+
+  /// Whether a cell on a line has none beside it.
+  bool isAlone(Cell cell, const Crossing& crossing) const {
+    const float width = static_cast<float>(cell_m);
+    const Eigen::Vector2f centre =
+        corner + width * Eigen::Vector2f(static_cast<float>(cell.column) + 0.5F,
+                                         static_cast<float>(cell.row) + 0.5F);
+    const float side = crossing.side(centre);
+    if (std::abs(side) > width) return false;
+    const Eigen::Vector2f on_line = centre - side * crossing.normal;
+    for (const float steps : {-3.0F, -2.0F, 2.0F, 3.0F}) {
+      if (cells.contains(cellOf(on_line + steps * width * crossing.normal))) return false;
+    }
+    return true;
   }
 
   /// By truncation, which is quicker than floor().
