@@ -17,6 +17,9 @@ constexpr double kCoarser = 3.0;  ///< Edge of a level's cells against that of t
 constexpr double kMinFlatness = 12.0;
 /// ... and against the cell's edge (standard deviation): a thin stripe has a poor normal.
 constexpr double kMinWidth = 0.06;
+/// A plane reaches so much farther than its points (added to each spread): the rings on a floor move
+/// by this when the robot sways, and the floor is still there.
+constexpr double kReachMargin_m = 0.1;
 /// A cell that is not flat may fill up further: the next points may show the plane.
 constexpr int kPatience = 4;
 /// Planes are fitted again when their points have grown by this share.
@@ -147,15 +150,18 @@ class Grid {
     const Eigen::Vector3d variances = eigen.eigenvalues().cwiseMax(1e-10);
 
     face->fitted_count = face->count;
+    const Eigen::Vector3d normal = eigen.eigenvectors().col(0);
     const double min_width_m = kMinWidth * edge_m_;
     face->flat = variances[0] < config_.max_thickness_m * config_.max_thickness_m &&
                  variances[1] > kMinFlatness * variances[0] &&
                  variances[1] > min_width_m * min_width_m;
     if (!face->flat) return;
     face->plane.centre = corner + mean;
-    face->plane.normal = eigen.eigenvectors().col(0);
-    if (face->plane.normal.dot(face->ray_sum) > 0.0) face->plane.normal *= -1.0;
+    face->plane.normal = normal.dot(face->ray_sum) > 0.0 ? Eigen::Vector3d(-normal) : normal;
     face->plane.variance_m2 = variances[0];
+    const Eigen::Vector2d reach_m2 = variances.tail<2>().array() + kReachMargin_m * kReachMargin_m;
+    face->plane.to_extent = reach_m2.cwiseSqrt().cwiseInverse().asDiagonal() *
+                            eigen.eigenvectors().rightCols<2>().transpose();
   }
 
   double edge_m_;
@@ -198,7 +204,8 @@ const MapPlane* VoxelMap::find(const Eigen::Vector3d& point, const Eigen::Vector
   };
   if (level == 0) {
     const MapPlane* plane = at(0);
-    return plane != nullptr ? plane : at(1);
+    if (plane == nullptr) plane = at(1);
+    return plane != nullptr && plane->reaches(point) ? plane : nullptr;
   }
   const MapPlane* plane = nullptr;
   for (int l = level; l >= 0 && plane == nullptr; --l) plane = at(l);

@@ -139,6 +139,21 @@ TEST(VoxelMap, MakesNoPlaneOfOneRing) {
   for (int level = 0; level < VoxelMap::kLevels; ++level) EXPECT_TRUE(map.planes(level).empty());
 }
 
+TEST(VoxelMap, PlanesReachNoFartherThanTheirPoints) {
+  // a stretch of floor, and a coarse cell about it that reaches over a wall
+  const Eigen::Vector3d viewpoint(0.3, 0.3, 1.2);
+  VoxelMap map(config());
+  insert(Wall{{0.25, 0.25, 0.1}, Eigen::Vector3d::UnitZ()}.points(), viewpoint, &map);
+  map.refit();
+  ASSERT_EQ(map.planes(1).size(), 1U);
+  constexpr double kFootOfAWall_m = 0.12;
+  EXPECT_NE(map.find({0.25, 0.25, kFootOfAWall_m}, viewpoint, 0), nullptr) << "among its points";
+  EXPECT_NE(map.find({0.55, 0.25, kFootOfAWall_m}, viewpoint, 0), nullptr) << "next to them";
+  EXPECT_EQ(map.find({1.25, 0.25, kFootOfAWall_m}, viewpoint, 0), nullptr) << "past them";
+  EXPECT_EQ(map.find({0.25, 1.25, kFootOfAWall_m}, viewpoint, 0), nullptr) << "the other way";
+  EXPECT_NE(map.find({1.25, 0.25, kFootOfAWall_m}, viewpoint, 1), nullptr) << "while searching";
+}
+
 TEST(VoxelMap, MakesNoPlaneOfWhatIsThick) {
   test::RandomGeometry random(4);
   VoxelMap map(config());

@@ -31,6 +31,16 @@ struct MapPlane {
   Eigen::Vector3d centre;  ///< [m] mean of the points
   Eigen::Vector3d normal;
   double variance_m2 = 0.0;  ///< of the points across the plane
+  /// [1/m] to_extent * (p - centre): how far p is from the centre along the plane, in units of the
+  /// points' own spread.
+  Eigen::Matrix<double, 2, 3> to_extent;
+
+  /// Whether the plane's points tell of the place of `point`. Beyond them there may be anything: the
+  /// floor of a cell ends at its walls, and its plane does not.
+  bool reaches(const Eigen::Vector3d& point) const {
+    constexpr double kReach = 3.0;
+    return (to_extent * (point - centre)).squaredNorm() < kReach * kReach;
+  }
 };
 
 /// A map of small planes in hash grids of three levels, each with cells three times larger than the
@@ -56,8 +66,9 @@ class VoxelMap {
 
   /// The plane that a point seen from `viewpoint` may lie on, or null. Only faces turned to the
   /// viewpoint count.
-  /// @param level  0: the fine cell's, else that of the next level. Higher, while the pose is still
-  ///               far off: the coarse cell's, else those of the levels below.
+  /// @param level  0: the fine cell's, else that of the next level, if it reaches the point. Higher,
+  ///               while the pose is still far off: the coarse cell's, else those of the levels
+  ///               below, whether or not they reach it.
   const MapPlane* find(const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint,
                        int level) const;
 
