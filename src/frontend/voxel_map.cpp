@@ -17,6 +17,10 @@ constexpr double kCoarser = 3.0;  ///< Edge of a level's cells against that of t
 constexpr double kMinFlatness = 12.0;
 /// ... and against the cell's edge (standard deviation): a thin stripe has a poor normal.
 constexpr double kMinWidth = 0.06;
+/// A plane is seen from outside it (sine of the mean angle between it and its rays). The ring of one
+/// beam round a corner of two walls is as flat as a wall, but its plane is that of the beam and goes
+/// through the sensor.
+constexpr double kMinIncidence = 0.07;
 /// A plane reaches so much farther than its points (added to each spread): the rings on a floor move
 /// by this when the robot sways, and the floor is still there.
 constexpr double kReachMargin_m = 0.1;
@@ -154,7 +158,8 @@ class Grid {
     const double min_width_m = kMinWidth * edge_m_;
     face->flat = variances[0] < config_.max_thickness_m * config_.max_thickness_m &&
                  variances[1] > kMinFlatness * variances[0] &&
-                 variances[1] > min_width_m * min_width_m;
+                 variances[1] > min_width_m * min_width_m &&
+                 std::abs(normal.dot(face->ray_sum)) > kMinIncidence * n;
     if (!face->flat) return;
     face->plane.centre = corner + mean;
     face->plane.normal = normal.dot(face->ray_sum) > 0.0 ? Eigen::Vector3d(-normal) : normal;

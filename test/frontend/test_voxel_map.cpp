@@ -139,6 +139,37 @@ TEST(VoxelMap, MakesNoPlaneOfOneRing) {
   for (int level = 0; level < VoxelMap::kLevels; ++level) EXPECT_TRUE(map.planes(level).empty());
 }
 
+TEST(VoxelMap, MakesNoPlaneOfOneBeamAroundACorner) {
+  // two walls meet at (x, y) = (2.2, 2.2); a beam draws an L on them, in a plane through the sensor
+  std::mt19937 generator(1);
+  std::normal_distribution<double> noise(0.0, 0.005);
+  const Eigen::Vector3d sensor(0.0, 0.0, 0.6);
+  for (const double elevation_rad : {-0.26, -0.05, 0.09, 0.26}) {
+    SCOPED_TRACE(elevation_rad);
+    VoxelMap map(config());
+    for (double azimuth_rad = 0.3; azimuth_rad < 1.27; azimuth_rad += 0.002) {
+      const double wall_m =
+          std::min(2.2 / std::cos(azimuth_rad), 2.2 / std::sin(azimuth_rad)) + noise(generator);
+      map.insert(sensor + wall_m * Eigen::Vector3d(std::cos(azimuth_rad), std::sin(azimuth_rad),
+                                                   std::tan(elevation_rad)),
+                 sensor);
+    }
+    map.refit();
+    for (int level = 0; level < VoxelMap::kLevels; ++level) {
+      EXPECT_TRUE(map.planes(level).empty()) << "level " << level;
+    }
+  }
+}
+
+TEST(VoxelMap, KeepsAFloorSeenFromALowSensor) {
+  VoxelMap map(config());
+  insert(Wall{{6.25, 0.25, 0.2}, Eigen::Vector3d::UnitZ()}.points(), {0.25, 0.25, 0.8}, &map);
+  map.refit();
+  const auto planes = map.planes(0);
+  ASSERT_EQ(planes.size(), 1U);
+  EXPECT_GT(planes.front().normal.z(), 0.99);
+}
+
 TEST(VoxelMap, PlanesReachNoFartherThanTheirPoints) {
   // a stretch of floor, and a coarse cell about it that reaches over a wall
   const Eigen::Vector3d viewpoint(0.3, 0.3, 1.2);

@@ -92,9 +92,12 @@ struct SimulatedRun {
   OwnedRawCloud rawCloud(std::size_t scan) const { return rawCloudOf(scans[scan], lidar); }
 };
 
+/// @param turn_rad  Of the building and the walk in it about the origin.
 inline SimulatedRun simulatedRun(const sim::Building& building, const std::string& sensor,
-                                 double duration_s = std::numeric_limits<double>::infinity()) {
+                                 double duration_s = std::numeric_limits<double>::infinity(),
+                                 double turn_rad = 0.0) {
   sim::SimulationConfig config;
+  config.turn_rad = turn_rad;
   config.lidar = sim::lidarNamed(sensor);
   config.robot = sim::robotNamed("legged");
   config.max_duration_s = duration_s;
