@@ -164,8 +164,9 @@ class Grid {
     face->plane.centre = corner + mean;
     face->plane.normal = normal.dot(face->ray_sum) > 0.0 ? Eigen::Vector3d(-normal) : normal;
     face->plane.variance_m2 = variances[0];
-    const Eigen::Vector2d reach_m2 = variances.tail<2>().array() + kReachMargin_m * kReachMargin_m;
-    face->plane.to_extent = reach_m2.cwiseSqrt().cwiseInverse().asDiagonal() *
+    const Eigen::Vector2d extent_m2 =
+        variances.tail<2>() + Eigen::Vector2d::Constant(kReachMargin_m * kReachMargin_m);
+    face->plane.to_extent = extent_m2.cwiseSqrt().cwiseInverse().asDiagonal() *
                             eigen.eigenvectors().rightCols<2>().transpose();
   }
 

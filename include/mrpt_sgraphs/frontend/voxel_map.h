@@ -32,7 +32,7 @@ struct MapPlane {
   Eigen::Vector3d normal;
   double variance_m2 = 0.0;  ///< of the points across the plane
   /// [1/m] to_extent * (p - centre): how far p is from the centre along the plane, in units of the
-  /// points' own spread.
+  /// spread of its points (with a margin).
   Eigen::Matrix<double, 2, 3> to_extent;
 
   /// Whether the plane's points tell of the place of `point`. Beyond them there may be anything: the
