@@ -17,12 +17,12 @@ constexpr double kCoarser = 3.0;  ///< Edge of a level's cells against that of t
 constexpr double kMinFlatness = 12.0;
 /// ... and against the cell's edge (standard deviation): a thin stripe has a poor normal.
 constexpr double kMinWidth = 0.06;
-/// A plane is seen from outside it (sine of the mean angle between it and its rays). The ring of one
-/// beam round a corner of two walls is as flat as a wall, but its plane is that of the beam and goes
-/// through the sensor.
+/// A plane is seen from outside it (sine of the mean angle between it and its rays). The ring of
+/// one beam round a corner of two walls is as flat as a wall, but its plane is that of the beam and
+/// goes through the sensor.
 constexpr double kMinIncidence = 0.07;
-/// A plane reaches so much farther than its points (added to each spread): the rings on a floor move
-/// by this when the robot sways, and the floor is still there.
+/// A plane reaches so much farther than its points (added to each spread): the rings on a floor
+/// move by this when the robot sways, and the floor is still there.
 constexpr double kReachMargin_m = 0.1;
 /// A cell that is not flat may fill up further: the next points may show the plane.
 constexpr int kPatience = 4;

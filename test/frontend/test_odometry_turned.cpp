@@ -45,8 +45,7 @@ TEST_P(OdometryInATurnedBuilding, LosesNoHeight) {
 INSTANTIATE_TEST_SUITE_P(Turns, OdometryInATurnedBuilding,
                          ::testing::Values(TurnedBuilding{0.0, 15.0}, TurnedBuilding{17.0, 15.0},
                                            TurnedBuilding{40.0, 15.0}, TurnedBuilding{107.0, 20.0},
-                                           TurnedBuilding{135.0, 7.0},
-                                           TurnedBuilding{165.0, 7.0}));
+                                           TurnedBuilding{135.0, 7.0}, TurnedBuilding{165.0, 7.0}));
 
 }  // namespace
 }  // namespace mrpt_sgraphs

@@ -35,8 +35,8 @@ struct MapPlane {
   /// spread of its points (with a margin).
   Eigen::Matrix<double, 2, 3> to_extent;
 
-  /// Whether the plane's points tell of the place of `point`. Beyond them there may be anything: the
-  /// floor of a cell ends at its walls, and its plane does not.
+  /// Whether the plane's points tell of the place of `point`. Beyond them there may be anything:
+  /// the floor of a cell ends at its walls, and its plane does not.
   bool reaches(const Eigen::Vector3d& point) const {
     constexpr double kReach = 3.0;
     return (to_extent * (point - centre)).squaredNorm() < kReach * kReach;
@@ -66,9 +66,9 @@ class VoxelMap {
 
   /// The plane that a point seen from `viewpoint` may lie on, or null. Only faces turned to the
   /// viewpoint count.
-  /// @param level  0: the fine cell's, else that of the next level, if it reaches the point. Higher,
-  ///               while the pose is still far off: the coarse cell's, else those of the levels
-  ///               below, whether or not they reach it.
+  /// @param level  0: the fine cell's, else that of the next level, if it reaches the point.
+  ///               Higher, while the pose is still far off: the coarse cell's, else those of the
+  ///               levels below, whether or not they reach it.
   const MapPlane* find(const Eigen::Vector3d& point, const Eigen::Vector3d& viewpoint,
                        int level) const;
 
