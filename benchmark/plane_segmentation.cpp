@@ -162,8 +162,7 @@ std::vector<sim::WallFace> facesIn(const Cloud& cloud, const Pose& T_map_base,
   constexpr double kMaxRange_m = 10.0;
   constexpr double kMinArea_m2 = 2.0;
   constexpr double kNoise_m = 0.06;
-  const Eigen::Vector3d viewpoint_map =
-      T_map_base * Eigen::Vector3d(cloud.sensor_origin_.head<3>().cast<double>());
+  const Eigen::Vector3d viewpoint_map = T_map_base * viewpointOf(cloud);
   std::vector<sim::WallFace> seen;
   for (const sim::WallFace& face : faces) {
     if (face.inward().dot(viewpoint_map.head<2>() - face.first) < 0.0) continue;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mrpt_sgraphs/geometry/pose.h"
+
 namespace mrpt_sgraphs {
 
 /// Whether points that look like a plane's follow a parabola: a pillar, a vault.
@@ -45,7 +47,6 @@ class BendTest {
 
  private:
   using Vector6 = Eigen::Matrix<double, 6, 1>;
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
   static constexpr double kMinSpread_m = 0.01;
   static constexpr double kDamping = 1e-3;

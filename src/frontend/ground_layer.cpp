@@ -34,7 +34,7 @@ std::optional<std::size_t> GroundLayer::groundAmong(const ObservedPlanes& planes
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const ObservedPlane& plane = planes[k];
-    if (plane.area_m2 < config_.min_area_m2 || !isSound(plane)) continue;
+    if (plane.area_m2 < config_.min_area_m2 || !canBeSighted(plane)) continue;
     if (plane.plane_base.normal.dot(up_base) < least_up) continue;
     const double height_m = heightUnderBase(plane.plane_base, up_base);
     if (height_m > config_.max_step_m) continue;  // nothing to stand on
@@ -127,9 +127,7 @@ void GroundLayer::refreshPlanes(const LayeredGraph& graph) {
 }
 
 void GroundLayer::addFactor(SurfaceSighting* sighting, FloorId floor, LayeredGraph* graph) const {
-  const RobustKernel doubt{RobustKernel::Kind::kHuber, config_.kernel_chi2};
-  sighting->factor = graph->addFactor(std::make_shared<PlaneObservationFactor>(
-      observationOf(sighting->keyframe, floor, observedBy(*sighting, *graph), doubt)));
+  addObservation(floor, config_.kernel_chi2, sighting, graph);
   KeyframeAttributes attributes = graph->attributes(sighting->keyframe);
   attributes.floor = floor;
   graph->setAttributes(sighting->keyframe, attributes);

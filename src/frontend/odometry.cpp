@@ -27,10 +27,6 @@ constexpr double kMapEvery_rad = 0.02;
 /// The local map forgets whenever the robot has gone this far.
 constexpr double kForgetEvery_m = 5.0;
 
-Eigen::Vector3d viewpointOf(const Cloud& scan) {
-  return scan.sensor_origin_.head<3>().cast<double>();
-}
-
 /// R_level_base of a first scan, without an IMU.
 Eigen::Matrix3d levelByGround(const Cloud& scan, const VoxelMapConfig& config) {
   VoxelMap map(config);

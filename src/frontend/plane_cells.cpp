@@ -4,30 +4,17 @@
 #include "plane_cells.h"
 
 #include <limits>
+#include <numeric>
+
+#include "cell_key.h"
 
 namespace mrpt_sgraphs {
 namespace {
 
-using Key = std::uint64_t;
-
-/// 21 bits an axis, shifted to be positive: a million cells to each side.
-constexpr int kBits = 21;
-constexpr int kOffset = 1 << (kBits - 1);
-constexpr Key kMask = (Key{1} << kBits) - 1;
-
+using Key = CellKey;
 using Index3 = Eigen::Vector3i;
 
-Key keyOf(const Index3& index) {
-  return (static_cast<Key>(index.x() + kOffset) & kMask) |
-         (static_cast<Key>(index.y() + kOffset) & kMask) << kBits |
-         (static_cast<Key>(index.z() + kOffset) & kMask) << (2 * kBits);
-}
-
-Index3 indexOf(Key key) {
-  return {static_cast<int>(key & kMask) - kOffset,
-          static_cast<int>(key >> kBits & kMask) - kOffset,
-          static_cast<int>(key >> (2 * kBits) & kMask) - kOffset};
-}
+Key keyOf(const Index3& index) { return cellKey(index.x(), index.y(), index.z()); }
 
 /// The cell of a point that is given in edges; rounding may put it into the next one.
 Index3 indexAt(const Eigen::Vector3f& p) {
@@ -38,12 +25,33 @@ Index3 indexAt(const Eigen::Vector3f& p) {
 }
 
 Key parentKey(Key key) {
-  const Index3 index = indexOf(key);
-  return keyOf({index.x() >> 1, index.y() >> 1, index.z() >> 1});
+  const auto [x, y, z] = cellIndexOf(key);
+  return cellKey(x >> 1, y >> 1, z >> 1);
 }
 
+/// Sums about the centre of a cell: short enough for single precision.
+struct CellSums {
+  std::array<float, 10> values{};
+
+  void add(const Eigen::Vector3f& p) {
+    values[0] += 1.0F;
+    for (std::size_t k = 0; k < 3; ++k) values[1 + k] += p[static_cast<int>(k)];
+    for (std::size_t k = 0; k < 6; ++k) {
+      values[4 + k] += p[Scatter::kPairs[k].first] * p[Scatter::kPairs[k].second];
+    }
+  }
+
+  Scatter about(const Eigen::Vector3d& centre) const {
+    std::array<double, 6> products{};
+    for (std::size_t k = 0; k < 6; ++k) products[k] = values[4 + k];
+    return Scatter::about(centre, values[0], {values[1], values[2], values[3]}, products);
+  }
+};
+
+}  // namespace
+
 /// Numbers keys in the order in which they first come.
-class KeyNumbers {
+class PlaneCells::KeyNumbers {
  public:
   explicit KeyNumbers(std::size_t expected) {
     std::size_t slots = 64;
@@ -93,34 +101,11 @@ class KeyNumbers {
   std::vector<Key> keys_;
 };
 
-/// Sums about the centre of a cell: short enough for single precision.
-struct CellSums {
-  std::array<float, 10> values{};
-
-  void add(const Eigen::Vector3f& p) {
-    values[0] += 1.0F;
-    for (std::size_t k = 0; k < 3; ++k) values[1 + k] += p[static_cast<int>(k)];
-    for (std::size_t k = 0; k < 6; ++k) {
-      values[4 + k] += p[Scatter::kPairs[k].first] * p[Scatter::kPairs[k].second];
-    }
-  }
-
-  Scatter about(const Eigen::Vector3d& centre) const {
-    std::array<double, 6> products{};
-    for (std::size_t k = 0; k < 6; ++k) products[k] = values[4 + k];
-    return Scatter::about(centre, values[0], {values[1], values[2], values[3]}, products);
-  }
-};
-
-}  // namespace
-
 PlaneCells::PlaneCells(const Cloud& cloud, double finest_m) {
-  sortIntoFinest(cloud, finest_m);
-  joinIntoCoarser();
-  findNeighbours();
+  joinIntoCoarser(sortIntoFinest(cloud, finest_m));
 }
 
-void PlaneCells::sortIntoFinest(const Cloud& cloud, double finest_m) {
+PlaneCells::KeyNumbers PlaneCells::sortIntoFinest(const Cloud& cloud, double finest_m) {
   constexpr std::size_t kPointsInCell = 8;
   KeyNumbers numbers(cloud.size() / kPointsInCell);
   std::vector<CellSums> sums;
@@ -147,56 +132,61 @@ void PlaneCells::sortIntoFinest(const Cloud& cloud, double finest_m) {
     sums[static_cast<std::size_t>(last.cell)].add(p - (index.cast<float>().array() + 0.5F).matrix() * edge_m);
     cell_of_point_[k] = last.cell;
   }
-  keys_ = numbers.keys();
   levels_[0].reserve(sums.size());
   for (std::size_t c = 0; c < sums.size(); ++c) {
-    const Eigen::Vector3f corner = indexOf(keys_[c]).cast<float>();
+    const auto [x, y, z] = cellIndexOf(numbers.keys()[c]);
+    const Eigen::Vector3f corner = Index3(x, y, z).cast<float>();
     const Eigen::Vector3f centre = (corner.array() + 0.5F).matrix() * edge_m;
     levels_[0].push_back(sums[c].about(centre.cast<double>()));
   }
+  return numbers;
 }
 
-void PlaneCells::joinIntoCoarser() {
-  std::vector<Key> keys = keys_;
-  std::vector<int> cell_of_finest(keys_.size());
-  for (std::size_t c = 0; c < keys_.size(); ++c) cell_of_finest[c] = static_cast<int>(c);
-  for (std::size_t level = 0; level < kLevels; ++level) {
-    if (level > 0) {
-      KeyNumbers numbers(keys.size() / 2);
-      std::vector<int>& parents = parents_[level - 1];
-      parents.reserve(keys.size());
-      for (const Key key : keys) parents.push_back(numbers.numberOf(parentKey(key)));
-      levels_[level].resize(numbers.keys().size());
-      for (std::size_t c = 0; c < keys.size(); ++c) {
-        levels_[level][static_cast<std::size_t>(parents[c])] += levels_[level - 1][c];
-      }
-      for (int& cell : cell_of_finest) cell = parents[static_cast<std::size_t>(cell)];
-      keys = numbers.keys();
+void PlaneCells::joinIntoCoarser(const KeyNumbers& finest) {
+  std::vector<int> cell_of_finest(finest.keys().size());
+  std::iota(cell_of_finest.begin(), cell_of_finest.end(), 0);
+  listRuns(0, cell_of_finest);
+  std::vector<Key> keys = finest.keys();
+  for (std::size_t level = 1; level < kLevels; ++level) {
+    KeyNumbers numbers(keys.size() / 2);
+    std::vector<int> parents;
+    parents.reserve(keys.size());
+    for (const Key key : keys) parents.push_back(numbers.numberOf(parentKey(key)));
+    levels_[level].resize(numbers.keys().size());
+    for (std::size_t c = 0; c < keys.size(); ++c) {
+      levels_[level][static_cast<std::size_t>(parents[c])] += levels_[level - 1][c];
     }
-    if (level == kNeighbourLevel) neighbour_level_keys_ = keys;
-
-    // counting sort of the finest cells by their cell of this level
-    std::vector<int>& begins = run_begins_[level];
-    begins.assign(keys.size() + 1, 0);
-    for (const int cell : cell_of_finest) ++begins[static_cast<std::size_t>(cell) + 1];
-    for (std::size_t c = 1; c < begins.size(); ++c) begins[c] += begins[c - 1];
-    std::vector<int> next(begins.begin(), begins.end() - 1);
-    runs_[level].resize(cell_of_finest.size());
-    for (std::size_t c = 0; c < cell_of_finest.size(); ++c) {
-      int& place = next[static_cast<std::size_t>(cell_of_finest[c])];
-      runs_[level][static_cast<std::size_t>(place++)] = static_cast<int>(c);
+    for (int& cell : cell_of_finest) cell = parents[static_cast<std::size_t>(cell)];
+    listRuns(level, cell_of_finest);
+    if (level == kNeighbourLevel) {
+      cell_of_neighbour_level_ = cell_of_finest;
+      findNeighbours(numbers);
     }
+    keys = numbers.keys();
   }
 }
 
-void PlaneCells::findNeighbours() {
-  KeyNumbers numbers(neighbour_level_keys_.size());
-  for (const Key key : neighbour_level_keys_) numbers.numberOf(key);
+void PlaneCells::listRuns(std::size_t level, const std::vector<int>& cell_of_finest) {
+  // a counting sort
+  std::vector<int>& begins = run_begins_[level];
+  begins.assign(levels_[level].size() + 1, 0);
+  for (const int cell : cell_of_finest) ++begins[static_cast<std::size_t>(cell) + 1];
+  for (std::size_t c = 1; c < begins.size(); ++c) begins[c] += begins[c - 1];
+  std::vector<int> next(begins.begin(), begins.end() - 1);
+  runs_[level].resize(cell_of_finest.size());
+  for (std::size_t c = 0; c < cell_of_finest.size(); ++c) {
+    int& place = next[static_cast<std::size_t>(cell_of_finest[c])];
+    runs_[level][static_cast<std::size_t>(place++)] = static_cast<int>(c);
+  }
+}
+
+void PlaneCells::findNeighbours(const KeyNumbers& numbers) {
   constexpr std::size_t kMost = 26;
-  neighbours_.reserve(kMost * neighbour_level_keys_.size());
-  neighbour_begins_.reserve(neighbour_level_keys_.size() + 1);
-  for (std::size_t c = 0; c < neighbour_level_keys_.size(); ++c) {
-    const Index3 index = indexOf(neighbour_level_keys_[c]);
+  neighbours_.reserve(kMost * numbers.keys().size());
+  neighbour_begins_.reserve(numbers.keys().size() + 1);
+  for (const Key key : numbers.keys()) {
+    const auto [x, y, z] = cellIndexOf(key);
+    const Index3 index(x, y, z);
     neighbour_begins_.push_back(static_cast<int>(neighbours_.size()));
     for (int n = 0; n < 27; ++n) {
       const Index3 step(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);

@@ -28,9 +28,6 @@ class PlaneCells {
 
   /// The finest cell of a point of the cloud.
   int cellOf(std::size_t point) const { return cell_of_point_[point]; }
-  int parentOf(int level, int cell) const {
-    return parents_[static_cast<std::size_t>(level)][static_cast<std::size_t>(cell)];
-  }
 
   /// The finest cells within a cell of a level are a run of this list.
   struct Run {
@@ -43,6 +40,10 @@ class PlaneCells {
 
   /// The cells next to a cell of the neighbour level, corners too.
   static constexpr int kNeighbourLevel = 2;
+  /// The cell of that level that a finest cell is in.
+  int neighbourLevelCellOf(int finest) const {
+    return cell_of_neighbour_level_[static_cast<std::size_t>(finest)];
+  }
   Run neighbours(int cell) const {
     const int* const run = neighbours_.data();
     return {run + neighbour_begins_[static_cast<std::size_t>(cell)],
@@ -50,19 +51,18 @@ class PlaneCells {
   }
 
  private:
-  using Key = std::uint64_t;
+  class KeyNumbers;
 
-  void sortIntoFinest(const Cloud& cloud, double finest_m);
-  void joinIntoCoarser();
-  void findNeighbours();
+  KeyNumbers sortIntoFinest(const Cloud& cloud, double finest_m);
+  void joinIntoCoarser(const KeyNumbers& finest);
+  void listRuns(std::size_t level, const std::vector<int>& cell_of_finest);
+  void findNeighbours(const KeyNumbers& numbers);
 
   std::vector<int> cell_of_point_;
-  std::vector<Key> keys_;                           ///< Of the finest cells.
   std::array<std::vector<Scatter>, kLevels> levels_;
-  std::array<std::vector<int>, kLevels - 1> parents_;
+  std::vector<int> cell_of_neighbour_level_;          ///< By finest cell.
   std::array<std::vector<int>, kLevels> run_begins_;  ///< Of each cell, and the end of the last.
   std::array<std::vector<int>, kLevels> runs_;
-  std::vector<Key> neighbour_level_keys_;
   std::vector<int> neighbour_begins_;  ///< Of each cell, and the end of the last.
   std::vector<int> neighbours_;
 };

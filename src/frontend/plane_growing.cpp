@@ -118,7 +118,9 @@ class Growth {
     Scatter sum;
     double fitted_count = total_.count();
     queue_.clear();
-    for (const int finest : cells_.finestIn(level, seed)) enqueue(neighbourCell(finest));
+    for (const int finest : cells_.finestIn(level, seed)) {
+      enqueue(cells_.neighbourLevelCellOf(finest));
+    }
     for (std::size_t next = 0; next < queue_.size(); ++next) {
       const int coarse = queue_[next];
       bool any = false;
@@ -137,10 +139,6 @@ class Growth {
       }
     }
     total_ = sum;
-  }
-
-  int neighbourCell(int finest) const {
-    return cells_.parentOf(1, cells_.parentOf(0, finest));
   }
 
   void enqueue(int coarse) {

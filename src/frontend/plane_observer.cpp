@@ -12,20 +12,16 @@ PlaneObserver::PlaneObserver(const PlaneSegmentationConfig& config)
 
 void PlaneObserver::addScan(const Cloud::ConstPtr& deskewed, const Pose& T_odom_base,
                             bool registered) {
-  if (!registered) return reset();
-  gatherer_.add(deskewed, T_odom_base);
-  has_scan_ = true;
+  if (registered) {
+    gatherer_.add(deskewed, T_odom_base);
+  } else {
+    gatherer_.reset();
+  }
 }
 
 ObservedPlanesConstPtr PlaneObserver::take() {
-  if (!has_scan_) return nullptr;
-  has_scan_ = false;
+  if (gatherer_.empty()) return nullptr;
   return observedPlanes(segmentPlanes(gatherer_.take(), config_));
-}
-
-void PlaneObserver::reset() {
-  gatherer_.reset();
-  has_scan_ = false;
 }
 
 }  // namespace mrpt_sgraphs

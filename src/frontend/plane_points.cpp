@@ -52,7 +52,7 @@ class Candidates {
 
  private:
   std::size_t coarse(int cell) const {
-    return static_cast<std::size_t>(cells_.parentOf(1, cells_.parentOf(0, cell)));
+    return static_cast<std::size_t>(cells_.neighbourLevelCellOf(cell));
   }
 
   const PlaneCells& cells_;
@@ -183,9 +183,7 @@ std::vector<PlanePoints> pointsOnPlanes(const GatheredPoints& points, const Plan
     }
   }
   for (PlanePoints& side : sides) {
-    Eigen::Matrix3f axes;
-    axes << side.frame.u.transpose().cast<float>(), side.frame.v.transpose().cast<float>(),
-        side.frame.normal.transpose().cast<float>();
+    const Eigen::Matrix3f axes = side.frame.rotation().cast<float>();
     const Eigen::Vector3f origin = side.frame.origin.cast<float>();
     side.local.reserve(side.indices.size());
     for (const int index : side.indices) {

@@ -203,7 +203,6 @@ class Segmentation {
   }
 
   void takeParts(const PlaneCandidate& candidate, const std::vector<Crossing>& crossings) {
-    if (!hasEnough(candidate.points)) return;
     const Cover cover(candidate.points.local, crossings);
     if (cover.cells.empty()) return;
     const std::vector<CellSet> parts = cover.parts(config_.max_gap_m);

@@ -15,10 +15,6 @@ constexpr double kNewPlace_rad = 0.04;
 /// Of more than these every second is forgotten: a robot may turn on the spot for long.
 constexpr std::size_t kMaxScans = 64;
 
-Eigen::Vector3d viewpointOf(const Cloud& scan) {
-  return scan.sensor_origin_.head<3>().cast<double>();
-}
-
 void append(const Cloud& scan, const Pose& T_target_base, GatheredPoints* gathered) {
   gathered->views.push_back({gathered->cloud.size(), T_target_base * viewpointOf(scan)});
   const Eigen::Matrix3f R = T_target_base.linear().cast<float>();

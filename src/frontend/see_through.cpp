@@ -4,7 +4,6 @@
 #include "mrpt_sgraphs/frontend/see_through.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace mrpt_sgraphs {
 namespace {
@@ -29,16 +28,19 @@ bool isPassed(const CellSet& passed, Cell edge, Cell step) {
   return false;
 }
 
-/// The share of the lines along a direction whose last cell was passed beyond.
-template <typename LastCell>
-double openShare(int lines, const CellSet& passed, Cell step, const LastCell& lastCell) {
+/// The share of the lines along a direction in which the last cell seen was passed beyond.
+/// @param first  The last cell of the first line of the box; `next` leads to the other lines.
+double openShare(const CellSet& seen, const CellSet& passed, Cell first, Cell next, Cell outwards) {
   int there = 0;
   int open = 0;
-  for (int line = 0; line < lines; ++line) {
-    const std::optional<Cell> last = lastCell(line);
-    if (!last) continue;
+  for (; seen.box().contains(first); first = {first.column + next.column, first.row + next.row}) {
+    Cell last = first;
+    while (seen.box().contains(last) && !seen.contains(last)) {
+      last = {last.column - outwards.column, last.row - outwards.row};
+    }
+    if (!seen.box().contains(last)) continue;
     ++there;
-    if (isPassed(passed, *last, step)) ++open;
+    if (isPassed(passed, last, outwards)) ++open;
   }
   return there == 0 ? 0.0 : static_cast<double>(open) / there;
 }
@@ -46,10 +48,8 @@ double openShare(int lines, const CellSet& passed, Cell step, const LastCell& la
 }  // namespace
 
 void SeeThrough::add(const Cloud& cloud_base, const Pose& T_map_base, const CellBox& around) {
-  const Eigen::Vector3d viewpoint_map =
-      T_map_base * Eigen::Vector3d(cloud_base.sensor_origin_.head<3>().cast<double>());
-  Eigen::Matrix3d R_frame_map;
-  R_frame_map << frame_.u.transpose(), frame_.v.transpose(), frame_.normal.transpose();
+  const Eigen::Vector3d viewpoint_map = T_map_base * viewpointOf(cloud_base);
+  const Eigen::Matrix3d R_frame_map = frame_.rotation();
   const Eigen::Vector3f viewpoint = (R_frame_map * (viewpoint_map - frame_.origin)).cast<float>();
   if (viewpoint.z() < kInFront_m) return;
   lowest_view_m_ = std::min(lowest_view_m_, static_cast<double>(viewpoint.y()));
@@ -82,26 +82,10 @@ SeeThrough::OpenEdges SeeThrough::openEdgesOf(const CellSet& seen) const {
   const CellBox& box = seen.box();
   edges.width_m = box.columns() * kCell_m;
   edges.stands_low = box.min.row * kCell_m < lowest_view_m_;
-  edges.above = openShare(box.columns(), passed_, {0, 1}, [&](int line) -> std::optional<Cell> {
-    for (Cell cell{box.min.column + line, box.max.row}; cell.row >= box.min.row; --cell.row) {
-      if (seen.contains(cell)) return cell;
-    }
-    return std::nullopt;
-  });
-  edges.left = openShare(box.rows(), passed_, {-1, 0}, [&](int line) -> std::optional<Cell> {
-    for (Cell cell{box.min.column, box.min.row + line}; cell.column <= box.max.column;
-         ++cell.column) {
-      if (seen.contains(cell)) return cell;
-    }
-    return std::nullopt;
-  });
-  edges.right = openShare(box.rows(), passed_, {1, 0}, [&](int line) -> std::optional<Cell> {
-    for (Cell cell{box.max.column, box.min.row + line}; cell.column >= box.min.column;
-         --cell.column) {
-      if (seen.contains(cell)) return cell;
-    }
-    return std::nullopt;
-  });
+  constexpr Cell kUp{0, 1}, kLeft{-1, 0}, kRight{1, 0};
+  edges.above = openShare(seen, passed_, {box.min.column, box.max.row}, kRight, kUp);
+  edges.left = openShare(seen, passed_, box.min, kUp, kLeft);
+  edges.right = openShare(seen, passed_, {box.max.column, box.min.row}, kUp, kRight);
   return edges;
 }
 

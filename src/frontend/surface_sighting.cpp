@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace mrpt_sgraphs {
 
@@ -30,15 +31,8 @@ const ObservedPlane& observedBy(const SurfaceSighting& sighting, const LayeredGr
   return graph.attributes(sighting.keyframe).planes->at(sighting.plane);
 }
 
-bool isSound(const ObservedPlane& plane) {
-  constexpr double kMaxError = 1e-6;
-  if (!(std::abs(plane.plane_base.normal.norm() - 1.0) < kMaxError)) return false;
-  if (!std::isfinite(plane.plane_base.distance) || !plane.centroid_base.allFinite()) return false;
-  for (const Eigen::Vector3d& corner : plane.extent_base.outline) {
-    if (!corner.allFinite()) return false;
-  }
-  return plane.extent_base.outline.size() >= 3 && plane.covariance.allFinite() &&
-         plane.covariance.llt().info() == Eigen::Success;
+bool canBeSighted(const ObservedPlane& plane) {
+  return plane.extent_base.outline.size() >= 3 && isSound(plane);
 }
 
 PlaneObservationFactor observationOf(KeyframeId keyframe, NodeId surface,
@@ -46,6 +40,13 @@ PlaneObservationFactor observationOf(KeyframeId keyframe, NodeId surface,
   const Eigen::Matrix3d information = plane.covariance.inverse();
   return {keyframe, surface, plane.plane_base, 0.5 * (information + information.transpose()),
           kernel};
+}
+
+void addObservation(NodeId surface, double kernel_chi2, SurfaceSighting* sighting,
+                    LayeredGraph* graph) {
+  const RobustKernel doubt{RobustKernel::Kind::kHuber, kernel_chi2};
+  sighting->factor = graph->addFactor(std::make_shared<PlaneObservationFactor>(
+      observationOf(sighting->keyframe, surface, observedBy(*sighting, *graph), doubt)));
 }
 
 ObservationSum summed(const std::vector<SurfaceSighting>& sightings, const Plane& near_map,

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "cell_key.h"
+
 namespace mrpt_sgraphs {
 namespace {
 
@@ -25,13 +27,8 @@ VoxelSet::VoxelSet(double edge_m, std::size_t expected)
 }
 
 bool VoxelSet::insert(const Eigen::Vector3f& p) {
-  const auto part = [this](float v) {
-    constexpr int kOffset = 1 << 20;  // 21 bits a coordinate
-    constexpr std::uint64_t kMask = (1 << 21) - 1;
-    return static_cast<std::uint64_t>(static_cast<int>(std::floor(v * inverse_edge_)) + kOffset) &
-           kMask;
-  };
-  if (!insertKey((part(p.x()) << 42) | (part(p.y()) << 21) | part(p.z()))) return false;
+  const auto index = [this](float v) { return static_cast<int>(std::floor(v * inverse_edge_)); };
+  if (!insertKey(cellKey(index(p.x()), index(p.y()), index(p.z())))) return false;
   if (2 * ++count_ > slots_.size()) grow();
   return true;
 }

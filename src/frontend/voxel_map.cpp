@@ -8,6 +8,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "cell_key.h"
+
 namespace mrpt_sgraphs {
 namespace {
 
@@ -29,7 +31,7 @@ constexpr int kPatience = 4;
 /// Planes are fitted again when their points have grown by this share.
 constexpr double kGrowth = 1.15;
 
-using Key = std::uint64_t;
+using Key = CellKey;
 
 struct KeyHash {
   std::size_t operator()(Key key) const noexcept {
@@ -135,12 +137,8 @@ class Grid {
 
  private:
   static Key keyOf(const Eigen::Array3d& index) {
-    constexpr std::int64_t kOffset = 1 << 20;  // 21 bits a coordinate
-    constexpr std::int64_t kMask = (1 << 21) - 1;
-    const auto part = [&](double v) {
-      return static_cast<Key>((static_cast<std::int64_t>(v) + kOffset) & kMask);
-    };
-    return (part(index.x()) << 42) | (part(index.y()) << 21) | part(index.z());
+    return cellKey(static_cast<std::int64_t>(index.x()), static_cast<std::int64_t>(index.y()),
+                   static_cast<std::int64_t>(index.z()));
   }
 
   void fit(Surface* face, const Eigen::Vector3d& corner) const {

@@ -99,15 +99,10 @@ PlanarExtent WallExtent::outline_map(double max_gap_m) const {
   return lifted(outlineOf(cells_, config), frame_);
 }
 
-PlanarExtent dropped(PlanarExtent extent, const Plane& plane) {
-  const auto drop = [&plane](Outline3* ring) {
-    for (Eigen::Vector3d& corner : *ring) {
-      corner -= (plane.normal.dot(corner) - plane.distance) * plane.normal;
-    }
-  };
-  drop(&extent.outline);
-  for (Outline3& hole : extent.holes) drop(&hole);
-  return extent;
+PlanarExtent dropped(const PlanarExtent& extent, const Plane& plane) {
+  return mapped(extent, [&plane](const Eigen::Vector3d& corner) -> Eigen::Vector3d {
+    return corner - (plane.normal.dot(corner) - plane.distance) * plane.normal;
+  });
 }
 
 }  // namespace mrpt_sgraphs

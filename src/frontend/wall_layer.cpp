@@ -38,7 +38,7 @@ bool WallLayer::overlap(const WallExtent& a, const WallExtent& b) {
 }
 
 bool WallLayer::isWallLike(const ObservedPlane& plane, const Pose& T_map_base) const {
-  if (plane.area_m2 < config_.min_area_m2 || !isSound(plane)) return false;
+  if (plane.area_m2 < config_.min_area_m2 || !canBeSighted(plane)) return false;
   const double up = (T_map_base.linear() * plane.plane_base.normal).z();
   return std::abs(up) <= std::sin(config_.max_tilt_rad);
 }
@@ -130,7 +130,7 @@ bool WallLayer::associate(const WayToNewest& way, LayeredGraph* graph) {
     taken[match.plane] = true;
     SurfaceSighting sighting{newest, match.plane, {}, match.fit.way_sigma_m};
     if (track.id) {
-      addFactor(&sighting, *track.id, graph);
+      addObservation(*track.id, config_.kernel_chi2, &sighting, graph);
       changed = true;
     }
     extend(sighting, *graph, &track);
@@ -160,19 +160,13 @@ TrackNumber WallLayer::begin(std::vector<SurfaceSighting> sightings, const Plane
   return next_++;
 }
 
-void WallLayer::addFactor(SurfaceSighting* sighting, WallId wall, LayeredGraph* graph) const {
-  const RobustKernel doubt{RobustKernel::Kind::kHuber, config_.kernel_chi2};
-  sighting->factor = graph->addFactor(std::make_shared<PlaneObservationFactor>(
-      observationOf(sighting->keyframe, wall, observedBy(*sighting, *graph), doubt)));
-}
-
 bool WallLayer::promote(LayeredGraph* graph) {
   bool changed = false;
   for (auto& [number, track] : tracks_) {
     if (track.id || track.is_furniture || keyframesOf(track.sightings) < config_.min_sightings) continue;
     if (track.extent.area_m2() < config_.min_wall_area_m2) continue;
     track.id = graph->addWall(track.plane_map, {});
-    for (SurfaceSighting& sighting : track.sightings) addFactor(&sighting, *track.id, graph);
+    for (SurfaceSighting& sighting : track.sightings) addObservation(*track.id, config_.kernel_chi2, &sighting, graph);
     track.grown = true;
     changed = true;
   }

@@ -20,9 +20,7 @@ std::vector<double> chi2Of(const std::vector<SurfaceSighting>& sightings, const 
   for (const SurfaceSighting& sighting : sightings) {
     const PlaneObservationFactor observation =
         observationOf(sighting.keyframe, WallId{}, observedBy(sighting, graph));
-    const Eigen::Vector3d e =
-        observation.evaluate(graph.pose(sighting.keyframe), plane_map, nullptr, nullptr);
-    chi2.push_back(e.dot(observation.information() * e));
+    chi2.push_back(observation.chi2(graph.pose(sighting.keyframe), plane_map));
   }
   return chi2;
 }

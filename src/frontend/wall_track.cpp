@@ -7,15 +7,6 @@
 
 namespace mrpt_sgraphs {
 
-PlanarExtent operator*(const Pose& T_a_b, const PlanarExtent& extent_b) {
-  PlanarExtent extent_a = extent_b;
-  for (Eigen::Vector3d& corner : extent_a.outline) corner = T_a_b * corner;
-  for (Outline3& hole : extent_a.holes) {
-    for (Eigen::Vector3d& corner : hole) corner = T_a_b * corner;
-  }
-  return extent_a;
-}
-
 void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track) {
   if (track->sightings.empty()) return;  // nothing is left to draw it from
   refit(graph, track);

@@ -161,7 +161,7 @@ TrackNumber WallLayer::merge(TrackNumber a, TrackNumber b, LayeredGraph* graph) 
   if (goes.id) graph->eraseNode(*goes.id);
   for (SurfaceSighting& sighting : goes.sightings) {
     sighting.factor.reset();
-    if (stays.id) addFactor(&sighting, *stays.id, graph);
+    if (stays.id) addObservation(*stays.id, config_.kernel_chi2, &sighting, graph);
   }
   std::vector<SurfaceSighting> all;
   std::merge(

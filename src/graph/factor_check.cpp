@@ -21,22 +21,10 @@ namespace {
 
 /// Of the largest entry: what rounding makes of an eigenvalue that is zero is smaller.
 constexpr double kMaxNegative = 1e-8;
-constexpr double kMaxError = 1e-6;  ///< Rounding errors that add up are smaller, mistakes larger.
 
 void require(bool holds, const Factor& factor, const char* problem) {
   if (!holds) throw std::invalid_argument(describe(factor) + ": " + problem);
 }
-
-// Written so that NaN is refused.
-bool isSound(const Pose& T) {
-  const Eigen::Matrix3d R = T.linear();
-  return (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < kMaxError &&
-         R.determinant() > 0.0 && T.translation().allFinite();
-}
-bool isSound(const Eigen::Vector3d& direction) {
-  return std::abs(direction.norm() - 1.0) < kMaxError;
-}
-bool isSound(const Plane& plane) { return isSound(plane.normal) && std::isfinite(plane.distance); }
 
 /// A Hessian of relative measurements is singular, and the pivots of such a matrix tell nothing:
 /// after one that is zero but for rounding, the next may be anything. Shifted it is not.
@@ -77,7 +65,8 @@ void requireSoundParts(const Factor& factor) {
                                         [](const auto& f) { return isSound(f.measured_base); }) ||
       checkedAs<RelativePoseFactor>(factor, [](const auto& f) { return isSound(f.T_from_to); }) ||
       checkedAs<Quaternion>(factor, [](const auto& f) { return isSound(f.T_from_to); }) ||
-      checkedAs<RoomWallFactor>(factor, [](const auto& f) { return isSound(f.axis_room); }) ||
+      checkedAs<RoomWallFactor>(factor,
+                                [](const auto& f) { return isSound(Plane{f.axis_room, 0.0}); }) ||
       checkedAs<RoomCentreFactor>(factor, always) || checkedAs<FloorRoomFactor>(factor, always) ||
       checkedAs<WallPairFactor>(factor,
                                 [](const auto& f) {

@@ -12,23 +12,13 @@
 namespace mrpt_sgraphs {
 namespace {
 
-constexpr double kMaxError = 1e-6;  ///< Rounding errors that add up are smaller, mistakes larger.
 
-// written so that NaN is refused
 void requirePose(const Pose& T, NodeId node) {
-  const Eigen::Matrix3d R = T.linear();
-  const bool is_rotation =
-      (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < kMaxError && R.determinant() > 0.0;
-  if (!is_rotation || !T.translation().allFinite()) {
-    throw std::invalid_argument("the pose of " + nameOf(node) + " is none");
-  }
+  if (!isSound(T)) throw std::invalid_argument("the pose of " + nameOf(node) + " is none");
 }
 
 void requirePlane(const Plane& plane, NodeId node) {
-  const bool is_unit = std::abs(plane.normal.norm() - 1.0) < kMaxError;
-  if (!is_unit || !std::isfinite(plane.distance)) {
-    throw std::invalid_argument("the plane of " + nameOf(node) + " is none");
-  }
+  if (!isSound(plane)) throw std::invalid_argument("the plane of " + nameOf(node) + " is none");
 }
 
 }  // namespace

@@ -14,10 +14,8 @@ namespace {
 constexpr double kChi2_95 = 7.815;  // of three degrees of freedom
 
 double chi2At(const LayeredGraph& graph, const PlaneObservationFactor& factor) {
-  const Eigen::Vector3d e =
-      factor.evaluate(graph.pose(graph.handle(factor.node(0))),
-                      graph.plane(graph.handle(factor.node(1))), nullptr, nullptr);
-  return e.dot(factor.information() * e);
+  return factor.chi2(graph.pose(graph.handle(factor.node(0))),
+                     graph.plane(graph.handle(factor.node(1))));
 }
 
 ResidualStatistics statisticsOf(const std::vector<double>& chi2) {

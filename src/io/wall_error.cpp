@@ -36,13 +36,7 @@ struct Match {
 std::optional<Found> foundIn(const WallNode& wall, const Pose& T_truth_map) {
   Found found;
   found.plane = T_truth_map * wall.plane_map;
-  const auto moved = [&](const Outline3& outline_map) {
-    Outline3 outline;
-    for (const Eigen::Vector3d& corner : outline_map) outline.push_back(T_truth_map * corner);
-    return outline;
-  };
-  found.extent.outline = moved(wall.extent_map.outline);
-  for (const Outline3& hole : wall.extent_map.holes) found.extent.holes.push_back(moved(hole));
+  found.extent = T_truth_map * wall.extent_map;
   if (found.extent.outline.empty()) return std::nullopt;
 
   const PlaneFrame frame(found.plane, found.extent.outline.front());

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "mrpt_sgraphs/ros/conversions.h"
@@ -33,23 +31,6 @@ ObservedPlane toObservedPlane(const KeyframePlane& msg) {
   return plane;
 }
 
-bool allFinite(const Outline3& outline) {
-  return std::all_of(outline.begin(), outline.end(),
-                     [](const Eigen::Vector3d& corner) { return corner.allFinite(); });
-}
-
-/// What the graph would refuse, and the keyframe with it.
-bool isPlane(const ObservedPlane& plane) {
-  constexpr double kMaxError = 1e-6;
-  const bool has_direction = std::abs(plane.plane_base.normal.norm() - 1.0) < kMaxError;
-  const bool is_covariance =
-      plane.covariance.allFinite() && plane.covariance.llt().info() == Eigen::Success;
-  const auto& holes = plane.extent_base.holes;
-  return has_direction && std::isfinite(plane.plane_base.distance) && is_covariance &&
-         plane.centroid_base.allFinite() && allFinite(plane.extent_base.outline) &&
-         std::all_of(holes.begin(), holes.end(), allFinite);
-}
-
 }  // namespace
 
 KeyframePlanes toMsg(const ObservedPlanesConstPtr& planes, const std_msgs::Header& header) {
@@ -66,7 +47,8 @@ ObservedPlanesConstPtr toObservedPlanes(const KeyframePlanes& msg) {
   const auto planes = std::make_shared<ObservedPlanes>();
   for (const KeyframePlane& line : msg.planes) {
     ObservedPlane plane = toObservedPlane(line);
-    if (isPlane(plane)) planes->push_back(std::move(plane));
+    // what the graph would refuse, and the keyframe with it
+    if (isSound(plane)) planes->push_back(std::move(plane));
   }
   return planes;
 }

@@ -114,7 +114,7 @@ std::optional<LoopClosure> LoopCloser::verify(const Candidate& candidate,
     const Pose T_old_other = T_old_map * keyframes[i].T_map_base;
     const Cloud& cloud = *keyframes[i].cloud;
     const Eigen::Vector3d viewpoint =
-        T_old_other * Eigen::Vector3d(cloud.sensor_origin_.head<3>().cast<double>());
+        T_old_other * viewpointOf(cloud);
     for (const Point& p : cloud) {
       submap.insert(T_old_other * Eigen::Vector3d(p.getVector3fMap().cast<double>()), viewpoint);
     }
@@ -127,7 +127,7 @@ std::optional<LoopClosure> LoopCloser::verify(const Candidate& candidate,
   prior.information = 1e-2 * Matrix12::Identity();
   const RegistrationResult fit =
       registerScan(pointsOf(*newest.cloud), submap, prior, {prior.mean, VoxelMap::kLevels - 1},
-                   newest.cloud->sensor_origin_.head<3>().cast<double>(), config_.registration);
+                   viewpointOf(*newest.cloud), config_.registration);
   if (!fit.converged || fit.degenerate_directions > 0 || fit.inlier_ratio < config_.min_overlap ||
       fit.rms_m > config_.max_rms_m) {
     return std::nullopt;

@@ -18,7 +18,7 @@ constexpr double kHighest_m = 1.2;
 
 ScanContext::ScanContext(const Cloud& cloud_base, const Eigen::Matrix3d& R_level_base) {
   occupied_.setZero();
-  const Eigen::Vector3d origin = cloud_base.sensor_origin_.head<3>().cast<double>();
+  const Eigen::Vector3d origin = viewpointOf(cloud_base);
   for (const Point& point : cloud_base) {
     const Eigen::Vector3d p =
         R_level_base * (point.getVector3fMap().cast<double>() - origin);

@@ -202,12 +202,6 @@ class PoseNetwork {
   std::vector<Measurement> measurements_;
 };
 
-/// Written so that NaN is none.
-bool isPlaneSound(const Plane& plane) {
-  constexpr double kMaxError = 1e-6;
-  return std::abs(plane.normal.norm() - 1.0) < kMaxError && std::isfinite(plane.distance);
-}
-
 void placePlanes(const PoseNetwork& network, const Problem& problem, Problem::Values* values) {
   std::vector<int> slot(static_cast<std::size_t>(problem.variableCount()), -1);
   int planes = 0;
@@ -218,7 +212,7 @@ void placePlanes(const PoseNetwork& network, const Problem& problem, Problem::Va
   }
   for (int f = 0; f < problem.factorCount(); ++f) {
     const auto* seen = dynamic_cast<const PlaneObservationFactor*>(&problem.factor(f));
-    if (seen == nullptr || !isPlaneSound(seen->measured_base)) continue;
+    if (seen == nullptr || !isSound(seen->measured_base)) continue;
     int& plane = slot[static_cast<std::size_t>(problem.variablesOf(f)[1])];
     if (plane < 0) continue;
     const auto pose = static_cast<std::size_t>(network.place(problem.variablesOf(f)[0]));

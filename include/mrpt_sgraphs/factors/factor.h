@@ -97,6 +97,12 @@ class ResidualFactor : public Factor {
   /// The residual, and the Jacobians with respect to the variables' tangents where not null.
   virtual Residual evaluate(const Variables&... values, Jacobian<Variables>*... jacobians) const = 0;
 
+  /// The squared residual e' Omega e, before the robust kernel.
+  double chi2(const Variables&... values) const {
+    const Residual e = evaluate(values..., static_cast<Jacobian<Variables>*>(nullptr)...);
+    return e.dot(information_ * e);
+  }
+
   int nodeCount() const final { return kNodes; }
   NodeId node(int index) const final { return nodes_[static_cast<std::size_t>(index)]; }
 
@@ -128,9 +134,7 @@ class ResidualFactor : public Factor {
  private:
   template <std::size_t... I>
   double costOf(const VariableView* values, std::index_sequence<I...>) const {
-    const Residual e = evaluate(values[I].template as<Variables>()...,
-                                static_cast<Jacobian<Variables>*>(nullptr)...);
-    return kernel_.cost(e.dot(information_ * e));
+    return kernel_.cost(chi2(values[I].template as<Variables>()...));
   }
 
   template <std::size_t... I>

@@ -24,12 +24,11 @@ class PlaneObserver {
   /// keyframe. Null if there was none, or if its pose was not measured.
   ObservedPlanesConstPtr take();
 
-  void reset();
+  void reset() { gatherer_.reset(); }
 
  private:
   PlaneSegmentationConfig config_;
   ScanGatherer gatherer_;
-  bool has_scan_ = false;  ///< And the last one was registered.
 };
 
 }  // namespace mrpt_sgraphs

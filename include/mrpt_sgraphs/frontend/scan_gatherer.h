@@ -40,6 +40,7 @@ class ScanGatherer {
   /// @throws std::logic_error if nothing was added.
   GatheredPoints take();
 
+  bool empty() const { return scans_.empty(); }
   void reset() { scans_.clear(); }
 
  private:

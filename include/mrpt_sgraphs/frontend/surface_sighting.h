@@ -34,11 +34,16 @@ void dropErased(const LayeredGraph& graph, std::vector<SurfaceSighting>* sightin
 
 const ObservedPlane& observedBy(const SurfaceSighting& sighting, const LayeredGraph& graph);
 
-/// Whether it can be reasoned with: a unit normal, a covariance that is one, an outline.
-bool isSound(const ObservedPlane& plane);
+/// Whether it is sound and has an outline.
+bool canBeSighted(const ObservedPlane& plane);
 
 PlaneObservationFactor observationOf(KeyframeId keyframe, NodeId surface,
                                      const ObservedPlane& plane, const RobustKernel& kernel = {});
+
+/// Ties the keyframe to a surface of the graph by what it sees of it, which loses weight beyond
+/// `kernel_chi2`. The sighting knows its factor then.
+void addObservation(NodeId surface, double kernel_chi2, SurfaceSighting* sighting,
+                    LayeredGraph* graph);
 
 /// What sightings say on a surface while the keyframes stay where they are.
 ObservationSum summed(const std::vector<SurfaceSighting>& sightings, const Plane& near_map,

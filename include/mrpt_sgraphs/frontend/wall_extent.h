@@ -71,6 +71,6 @@ class WallExtent {
 };
 
 /// The feet of an extent's corners on a plane.
-PlanarExtent dropped(PlanarExtent extent, const Plane& plane);
+PlanarExtent dropped(const PlanarExtent& extent, const Plane& plane);
 
 }  // namespace mrpt_sgraphs

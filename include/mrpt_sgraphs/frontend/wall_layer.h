@@ -86,7 +86,6 @@ class WallLayer {
                          const ObservedPlane& plane, const LayeredGraph& graph) const;
   TrackNumber begin(std::vector<SurfaceSighting> sightings, const Plane& plane_map,
                     double seen_at_m, const LayeredGraph& graph);
-  void addFactor(SurfaceSighting* sighting, WallId wall, LayeredGraph* graph) const;
   bool promote(LayeredGraph* graph);
   void forgetUnseen(double way_m);
 

@@ -39,6 +39,4 @@ void extend(const SurfaceSighting& sighting, const LayeredGraph& graph, WallTrac
 /// Nothing but sightings and pairs ties the track's wall to the rest.
 bool isFree(const WallTrack& track, const LayeredGraph& graph);
 
-PlanarExtent operator*(const Pose& T_a_b, const PlanarExtent& extent_b);
-
 }  // namespace mrpt_sgraphs

@@ -19,6 +19,23 @@ struct PlanarExtent {
   std::vector<Outline3> holes;
 };
 
+/// An extent of which every corner is what `map` makes of it.
+template <typename Map>
+PlanarExtent mapped(PlanarExtent extent, const Map& map) {
+  for (Eigen::Vector3d& corner : extent.outline) corner = map(corner);
+  for (Outline3& hole : extent.holes) {
+    for (Eigen::Vector3d& corner : hole) corner = map(corner);
+  }
+  return extent;
+}
+
+/// extent_a = T_a_b * extent_b, as for points.
+inline PlanarExtent operator*(const Pose& T_a_b, const PlanarExtent& extent_b) {
+  return mapped(extent_b, [&T_a_b](const Eigen::Vector3d& corner) -> Eigen::Vector3d {
+    return T_a_b * corner;
+  });
+}
+
 /// A flat surface as it was seen from one place.
 struct ObservedPlane {
   Plane plane_base;
@@ -30,6 +47,9 @@ struct ObservedPlane {
   double area_m2 = 0.0;  ///< Of the extent without its holes.
   int points = 0;
 };
+
+/// Whether it can be reasoned with: a plane, a covariance that is one, everything finite.
+bool isSound(const ObservedPlane& plane);
 
 using ObservedPlanes = std::vector<ObservedPlane>;
 using ObservedPlanesConstPtr = std::shared_ptr<const ObservedPlanes>;

@@ -17,6 +17,12 @@ struct Plane {
   double distance = 0.0;  ///< [m] Of the plane from the origin, along the normal; may be negative.
 };
 
+/// Whether it is one: a unit normal but for rounding, everything finite.
+inline bool isSound(const Plane& plane) {
+  constexpr double kMaxError = 1e-6;  // written so that NaN is none
+  return std::abs(plane.normal.norm() - 1.0) < kMaxError && std::isfinite(plane.distance);
+}
+
 /// `[a; b; d]`: the normal's turn along the two columns of tangentBasis(normal) [rad, small], and
 /// the change of the distance [m].
 using PlaneTangent = Eigen::Vector3d;

@@ -40,6 +40,13 @@ struct PlaneFrame {
     v = normal.cross(u);
   }
 
+  /// To the frame's axes: u, v and the normal as rows.
+  Eigen::Matrix3d rotation() const {
+    Eigen::Matrix3d R;
+    R << u.transpose(), v.transpose(), normal.transpose();
+    return R;
+  }
+
   Eigen::Vector2d flat(const Eigen::Vector3d& point) const {
     return {u.dot(point - origin), v.dot(point - origin)};
   }

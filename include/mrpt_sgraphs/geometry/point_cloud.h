@@ -23,6 +23,11 @@ struct EIGEN_ALIGN16 Point {
 
 using Cloud = pcl::PointCloud<Point>;
 
+/// Where the sensor was, in the cloud's frame [m].
+inline Eigen::Vector3d viewpointOf(const Cloud& cloud) {
+  return cloud.sensor_origin_.head<3>().cast<double>();
+}
+
 /// PCL's stamps are microseconds.
 inline double stampOf(const Cloud& cloud) { return 1e-6 * static_cast<double>(cloud.header.stamp); }
 inline std::uint64_t toPclStamp(double stamp_s) {

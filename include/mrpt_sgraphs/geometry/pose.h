@@ -15,6 +15,14 @@ using Pose = Eigen::Isometry3d;
 using Tangent = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
+/// Whether it is one: a rotation but for rounding, everything finite.
+inline bool isSound(const Pose& T) {
+  constexpr double kMaxError = 1e-6;  // written so that NaN is none
+  const Eigen::Matrix3d R = T.linear();
+  return (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < kMaxError &&
+         R.determinant() > 0.0 && T.translation().allFinite();
+}
+
 /// The matrix of `v x`: skew(v) * w == v.cross(w).
 inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
