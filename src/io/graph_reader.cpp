@@ -65,7 +65,7 @@ void addRoom(const JsonPlace& place, LayeredGraph* graph) {
   attributes.floor = idOrNull<FloorId>(place["floor"]);
   attributes.size_m = place["size"].vector(2);
   attributes.name = place["name"].string();
-  attributes.polygon_map = place["polygon"].outline();
+  attributes.extent_map.outline = place["polygon"].outline();
   graph->restoreRoom(RoomId{place["id"].id()}, place["pose"].pose(), attributes);
 }
 

@@ -63,7 +63,7 @@ Json nodeJson(const RoomNode& room, const std::vector<KeyframeId>& keyframes) {
           {"keyframes", listOf(keyframes)},
           {"size", toJson(Eigen::VectorXd(room.size_m))},
           {"name", room.name},
-          {"polygon", polygon(room.polygon_map)}};
+          {"polygon", polygon(room.extent_map.outline)}};
 }
 
 Json nodeJson(const FloorNode& floor) {

@@ -10,6 +10,7 @@
 #include "mrpt_sgraphs/frontend/ground_layer.h"
 #include "mrpt_sgraphs/frontend/wall_layer.h"
 #include "mrpt_sgraphs/hierarchy/optimize_selection.h"
+#include "mrpt_sgraphs/semantics/room_layer.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -60,7 +61,8 @@ struct GraphSlam::State {
       : config(config),
         loop_closer(config.loop_closure),
         walls(config.walls),
-        ground(config.ground) {}
+        ground(config.ground),
+        rooms(config.rooms) {}
 
   bool associate();
   void addLoops(KeyframeOutcome* outcome);
@@ -73,6 +75,7 @@ struct GraphSlam::State {
   WayToNewest way;
   WallLayer walls;
   GroundLayer ground;
+  RoomLayer rooms;
   Optimizer optimizer;
 };
 
@@ -118,6 +121,7 @@ void GraphSlam::State::settle(bool after_loop, std::vector<OptimizationSummary>*
   if (after_loop && config.walls.enabled) walls.release(&graph);
   for (int round = 0; round < kMaxRounds; ++round) {
     optimizations->push_back(optimizeOnce());
+    rooms.follow(&graph);
     if (!config.walls.enabled || graph.size(Layer::kKeyframe) == 0) return;
     const bool widened = after_loop && round == 0;
     if (widened) way.update(graph);
@@ -169,6 +173,14 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
   const bool has_loops = outcome.loop_closures > 0;
   if (has_surfaces || has_loops) state_->settle(has_loops, &outcome.optimizations);
   return outcome;
+}
+
+std::vector<OptimizationSummary> GraphSlam::setFloors(const FloorDetection&) { return {}; }
+
+std::vector<OptimizationSummary> GraphSlam::setRooms(const RoomDetection& detection) {
+  std::vector<OptimizationSummary> optimizations;
+  if (state_->rooms.update(detection, &state_->graph)) state_->settle(false, &optimizations);
+  return optimizations;
 }
 
 OptimizationSummary GraphSlam::optimize() {

@@ -14,7 +14,8 @@ Pipeline::Pipeline(const SlamConfig& config)
       odometry_(config.odometry),
       keyframes_(config.keyframes),
       planes_(config.plane_segmentation),
-      graph_slam_(config) {}
+      graph_slam_(config),
+      rooms_(config.room_detection) {}
 
 std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
                               const std::string& base_frame) {
@@ -44,14 +45,25 @@ std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
   if (keyframe) {
     keyframe->planes = planes_.take();
     report.segment_ms = watch.lap();
-    const KeyframeOutcome outcome = graph_slam_.addKeyframe(*keyframe);
-    optimizations_.insert(optimizations_.end(), outcome.optimizations.begin(),
-                          outcome.optimizations.end());
+    add(graph_slam_.addKeyframe(*keyframe).optimizations);
+    if (config_.floors.enabled) {
+      add(graph_slam_.setFloors(detectFloors(*graph_slam_.snapshot(), config_.floors)));
+    }
     report.keyframe = true;
     report.keyframe_ms += watch.lap();
+    if (config_.room_detection.enabled) {
+      const RoomDetection rooms = rooms_.detect(*graph_slam_.snapshot());
+      report.rooms_ms = watch.lap();
+      add(graph_slam_.setRooms(rooms));
+      report.keyframe_ms += watch.lap();
+    }
   }
   scans_.push_back(report);
   return odometry->problem.empty() ? scan.remark : odometry->problem;
+}
+
+void Pipeline::add(const std::vector<OptimizationSummary>& optimizations) {
+  optimizations_.insert(optimizations_.end(), optimizations.begin(), optimizations.end());
 }
 
 RunRecord Pipeline::record() const {

@@ -36,11 +36,19 @@ struct KeyframeNode : KeyframeAttributes {
 /// A surface seen from one side.
 struct WallAttributes {
   PlanarExtent extent_map;  ///< How far it was seen.
+  std::optional<FloorId> floor;
 };
 
 struct WallNode : WallAttributes {
   WallId id;
   Plane plane_map;
+};
+
+/// A way out of a room: a door, or where a narrow passage opens into it.
+struct Doorway {
+  std::optional<RoomId> to;  ///< None: leads to what is no room, or not yet.
+  Eigen::Vector3d centre_map = Eigen::Vector3d::Zero();  ///< On the ground, in the opening [m].
+  double width_m = 0.0;
 };
 
 struct RoomAttributes {
@@ -51,7 +59,9 @@ struct RoomAttributes {
   std::optional<FloorId> floor;
   Eigen::Vector2d size_m{0.0, 0.0};  ///< Along the room's x and y, where it is rectangular.
   std::string name;
-  std::vector<Eigen::Vector3d> polygon_map;  ///< Its outline on the ground [m].
+  PlanarExtent extent_map;  ///< On the ground, counter-clockwise as seen from above.
+  double height_m = 0.0;    ///< From the ground to the ceiling; 0: it was not seen.
+  std::vector<Doorway> doorways;
 };
 
 struct RoomNode : RoomAttributes {
@@ -59,9 +69,17 @@ struct RoomNode : RoomAttributes {
   Pose T_map_room = Pose::Identity();  ///< Origin: its centre on the ground; x: its heading; z: up.
 };
 
+/// Stairs or a ramp from one floor to another.
+struct FloorConnection {
+  FloorId to;
+  Eigen::Vector3d here_map = Eigen::Vector3d::Zero();   ///< Where it leaves this floor [m],
+  Eigen::Vector3d there_map = Eigen::Vector3d::Zero();  ///< and where it arrives on the other.
+};
+
 struct FloorAttributes {
   Eigen::Vector3d centre_map{0.0, 0.0, 0.0};  ///< [m]
   std::string name;
+  std::vector<FloorConnection> connections;
 };
 
 struct FloorNode : FloorAttributes {

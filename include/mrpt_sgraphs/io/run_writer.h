@@ -21,6 +21,7 @@ struct ScanReport {
   double map_ms = 0.0;
   double segment_ms = 0.0;   ///< the planes of a keyframe
   double keyframe_ms = 0.0;  ///< selection, thinning, and the back end's work for it
+  double rooms_ms = 0.0;     ///< Free space and rooms.
   bool registered = false;
   bool keyframe = false;
 };

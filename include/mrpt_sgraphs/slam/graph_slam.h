@@ -7,6 +7,8 @@
 
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
 #include "mrpt_sgraphs/graph/snapshot.h"
+#include "mrpt_sgraphs/semantics/detected_room.h"
+#include "mrpt_sgraphs/semantics/floor_detector.h"
 #include "mrpt_sgraphs/slam/graph_slam_config.h"
 #include "mrpt_sgraphs/solver/optimization_summary.h"
 
@@ -33,6 +35,11 @@ class GraphSlam {
   /// @throws std::invalid_argument for a keyframe without a cloud, not newer than the last one, or
   ///         with a covariance that is not positive definite; the graph is then as it was.
   KeyframeOutcome addKeyframe(const Keyframe& keyframe);
+
+  /// Brings floors and rooms in line with what was detected in this graph or an older one, and
+  /// optimizes if there are new factors.
+  std::vector<OptimizationSummary> setFloors(const FloorDetection& detection);
+  std::vector<OptimizationSummary> setRooms(const RoomDetection& detection);
 
   /// Optimizes the whole graph now; walls that grow together by it are merged.
   OptimizationSummary optimize();

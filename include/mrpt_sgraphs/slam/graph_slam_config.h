@@ -5,6 +5,7 @@
 #include "mrpt_sgraphs/frontend/ground_layer_config.h"
 #include "mrpt_sgraphs/frontend/wall_layer_config.h"
 #include "mrpt_sgraphs/semantics/loop_closer.h"
+#include "mrpt_sgraphs/semantics/room_layer_config.h"
 #include "mrpt_sgraphs/slam/solver_config.h"
 
 namespace mrpt_sgraphs {
@@ -14,6 +15,7 @@ struct GraphSlamConfig {
   LoopCloserConfig loop_closure;
   WallLayerConfig walls;
   GroundLayerConfig ground;
+  RoomLayerConfig rooms;
   SolverConfig solver;
 };
 

@@ -11,6 +11,7 @@
 #include "mrpt_sgraphs/frontend/plane_observer.h"
 #include "mrpt_sgraphs/frontend/prefilter.h"
 #include "mrpt_sgraphs/io/run_writer.h"
+#include "mrpt_sgraphs/semantics/room_detector.h"
 #include "mrpt_sgraphs/slam/graph_slam.h"
 #include "mrpt_sgraphs/slam/scan_trajectory.h"
 #include "mrpt_sgraphs/slam/slam_config.h"
@@ -39,12 +40,15 @@ class Pipeline {
   RunRecord record() const;
 
  private:
+  void add(const std::vector<OptimizationSummary>& optimizations);
+
   SlamConfig config_;
   Prefilter prefilter_;
   Odometry odometry_;
   KeyframeSelector keyframes_;
   PlaneObserver planes_;
   GraphSlam graph_slam_;
+  RoomDetector rooms_;
   ScanTrajectory trajectory_;
   std::vector<OptimizationSummary> optimizations_;
   std::vector<ScanReport> scans_;

@@ -6,6 +6,8 @@
 #include "mrpt_sgraphs/frontend/odometry.h"
 #include "mrpt_sgraphs/frontend/plane_segmentation.h"
 #include "mrpt_sgraphs/frontend/prefilter.h"
+#include "mrpt_sgraphs/semantics/floor_detector_config.h"
+#include "mrpt_sgraphs/semantics/room_detector_config.h"
 #include "mrpt_sgraphs/slam/graph_slam_config.h"
 
 namespace mrpt_sgraphs {
@@ -17,6 +19,8 @@ struct SlamConfig : GraphSlamConfig {
   OdometryConfig odometry;
   KeyframeConfig keyframes;
   PlaneSegmentationConfig plane_segmentation;
+  FloorDetectorConfig floors;
+  RoomDetectorConfig room_detection;
 
   /// The one list of sections: `section(name, config)`.
   template <typename Self, typename Section>
@@ -28,6 +32,9 @@ struct SlamConfig : GraphSlamConfig {
     section("loop_closure", self.loop_closure);
     section("walls", self.walls);
     section("ground", self.ground);
+    section("floors", self.floors);
+    section("room_detection", self.room_detection);
+    section("rooms", self.rooms);
     section("solver", self.solver);
   }
 };

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <memory>
+
+#include "mrpt_sgraphs/graph/snapshot.h"
+#include "mrpt_sgraphs/semantics/detected_room.h"
+#include "mrpt_sgraphs/semantics/room_detector_config.h"
+
+namespace mrpt_sgraphs {
+
+/// Finds the rooms of every floor: the free space that the keyframes' rays have crossed, cut at
+/// doors and narrow passages, and the walls that bound each part. A room is what the robot was in.
+class RoomDetector {
+ public:
+  explicit RoomDetector(const RoomDetectorConfig& config);
+  ~RoomDetector();
+
+  /// Takes what is new or has moved since the last call into the free space, and looks for rooms.
+  /// @param graph  Its keyframes need their clouds and floors.
+  RoomDetection detect(const GraphSnapshot& graph);
+
+ private:
+  struct State;  ///< Not in the header: OctoMap and OpenCV.
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace mrpt_sgraphs
