@@ -15,11 +15,7 @@ namespace {
 TrueWall wallFrom(const JsonPlace& place, std::size_t index) {
   TrueWall wall;
   wall.id = place.has("id") ? place["id"].id() : index;
-  wall.extent.outline = place["polygon"].outline();
-  if (place.has("holes")) {
-    const JsonPlace holes = place["holes"];
-    for (std::size_t k = 0; k < holes.size(); ++k) wall.extent.holes.push_back(holes[k].outline());
-  }
+  wall.extent = place.extent();
   if (place.has("normal")) {
     wall.plane = Plane{place["normal"].unitVector(), place["distance"].number()};
   }
