@@ -35,17 +35,34 @@ TrajectoryErrors evaluateFile(const Truth& truth, const fs::path& file, double m
   }
 }
 
-void evaluateGraph(const Truth& truth, const fs::path& file, RunEvaluation* result) {
+template <typename Node>
+std::vector<Node> listOf(const SharedVector<Node>& nodes) {
+  return {nodes.begin(), nodes.end()};
+}
+
+void evaluateGraph(const Truth& truth, const fs::path& folder, double max_dt_s,
+                   RunEvaluation* result) {
+  const fs::path file = folder / "graph.json";
   std::ifstream stream(file);
   if (!stream) throw std::runtime_error("cannot read '" + file.string() + "'");
   const LayeredGraph graph = readGraphJson(stream, file.string());
   result->surface_residuals = surfaceResiduals(graph);
-  const bool has_sides = std::any_of(truth.building.walls.begin(), truth.building.walls.end(),
+  const GraphSnapshotConstPtr snapshot = graph.snapshot();
+  const TrueBuilding& building = truth.building;
+  const Pose& T_truth_map = result->trajectory.T_truth_run;
+  if (!building.rooms.empty()) {
+    result->rooms = evaluateRooms(building, listOf(snapshot->rooms), T_truth_map, truth.trajectory);
+  }
+  if (!building.floors.empty()) {
+    const Trajectory run = readTum((folder / "trajectory.tum").string());
+    result->floors =
+        evaluateFloors(building, truth.trajectory, *snapshot,
+                       pairByTime(truth.trajectory, run, max_dt_s).pairs, T_truth_map, max_dt_s);
+  }
+  const bool has_sides = std::any_of(building.walls.begin(), building.walls.end(),
                                      [](const TrueWall& wall) { return wall.plane.has_value(); });
   if (!has_sides) return;
-  const GraphSnapshotConstPtr snapshot = graph.snapshot();
-  const std::vector<WallNode> walls(snapshot->walls.begin(), snapshot->walls.end());
-  result->walls = evaluateWalls(truth.building.walls, walls, result->trajectory.T_truth_run);
+  result->walls = evaluateWalls(building.walls, listOf(snapshot->walls), T_truth_map);
 }
 
 }  // namespace
@@ -78,7 +95,7 @@ RunEvaluation evaluateRun(const Truth& truth, const std::string& run, double max
     result.map =
         evaluateMap(truth.building.surfaces, readPcd(map.string()), result.trajectory.T_truth_run);
   }
-  if (fs::exists(folder / "graph.json")) evaluateGraph(truth, folder / "graph.json", &result);
+  if (fs::exists(folder / "graph.json")) evaluateGraph(truth, folder, max_dt_s, &result);
   const fs::path optimizations = folder / "optimizations.csv";
   if (fs::exists(optimizations)) {
     result.optimizations = readOptimizationTimes(optimizations.string());
