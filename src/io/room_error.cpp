@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
+#include <stdexcept>
 #include <tuple>
 
 #include "mrpt_sgraphs/geometry/cell_set.h"
@@ -26,7 +26,11 @@ struct Area {
 };
 
 Area areaOf(const PlanarExtent& extent) {
+  constexpr double kMax_m = 2e7;  // farther than that cells have no numbers
   Area area;
+  for (const Eigen::Vector3d& corner : extent.outline) {
+    if (corner.cwiseAbs().maxCoeff() > kMax_m) throw std::length_error("a room is too far away");
+  }
   area.extent = flattened(extent, PlaneFrame());  // x and y
   area.cells = rasterized(area.extent, kCell_m);
   std::vector<double> heights_m;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "mrpt_sgraphs/io/room_error.h"
 #include "random_walk.h"
@@ -198,6 +199,8 @@ TEST(RoomErrors, AnOutlineThatCrossesItselfHasAnArea) {
   EXPECT_EQ(evaluate({spike}).mean_iou_of_matched, 1.0);
   EXPECT_EQ(evaluate({PlanarExtent{}}).wrong, (Ids{10}));
   EXPECT_TRUE(std::isnan(evaluate({}).precision()));
+  EXPECT_THROW(evaluate({box(0.0, 1e300, 0.0, 5.0)}), std::length_error);
+  EXPECT_THROW(evaluate({box(0.0, 1e6, 0.0, 1e6)}), std::length_error);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ struct RoomErrors {
 
 /// @param truth_trajectory  In the truth's frame: tells in which rooms the robot was, where rooms
 ///                          are not listed.
-/// @throws std::length_error for a room that is kilometres wide.
+/// @throws std::length_error for a room that is kilometres wide, or farther away than the earth is large.
 RoomErrors evaluateRooms(const TrueBuilding& truth, const std::vector<RoomNode>& found,
                          const Pose& T_truth_map, const Trajectory& truth_trajectory,
                          const RoomMatching& matching = {});
