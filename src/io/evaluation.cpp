@@ -26,18 +26,42 @@ fs::path truthFile(const fs::path& path) {
                            "' holds neither truth/trajectory.tum nor trajectory.tum");
 }
 
-TrajectoryErrors evaluateFile(const Truth& truth, const fs::path& file, double max_dt_s) {
-  const Trajectory trajectory = readTum(file.string());
+/// What the action returns; what it throws names the file.
+template <typename Action>
+auto naming(const fs::path& file, const Action& action) {
   try {
-    return evaluateTrajectory(truth.trajectory, trajectory, max_dt_s);
-  } catch (const std::runtime_error& error) {
+    return action();
+  } catch (const std::exception& error) {
     throw std::runtime_error("'" + file.string() + "': " + error.what());
   }
+}
+
+TrajectoryErrors evaluateFile(const Truth& truth, const fs::path& file, double max_dt_s) {
+  const Trajectory trajectory = readTum(file.string());
+  return naming(file, [&] { return evaluateTrajectory(truth.trajectory, trajectory, max_dt_s); });
 }
 
 template <typename Node>
 std::vector<Node> listOf(const SharedVector<Node>& nodes) {
   return {nodes.begin(), nodes.end()};
+}
+
+/// The layers of a graph against the building. What the building does not know is left out.
+void evaluateLayers(const Truth& truth, const GraphSnapshot& graph, const Trajectory& run,
+                    double max_dt_s, RunEvaluation* result) {
+  const TrueBuilding& building = truth.building;
+  const Pose& T_truth_map = result->trajectory.T_truth_run;
+  if (!building.rooms.empty()) {
+    result->rooms = evaluateRooms(building, listOf(graph.rooms), T_truth_map, truth.trajectory);
+  }
+  if (!building.floors.empty()) {
+    const PairedTrajectories paired = pairByTime(truth.trajectory, run, max_dt_s);
+    result->floors =
+        evaluateFloors(building, truth.trajectory, graph, paired.pairs, T_truth_map, max_dt_s);
+  }
+  const bool has_sides = std::any_of(building.walls.begin(), building.walls.end(),
+                                     [](const TrueWall& wall) { return wall.plane.has_value(); });
+  if (has_sides) result->walls = evaluateWalls(building.walls, listOf(graph.walls), T_truth_map);
 }
 
 void evaluateGraph(const Truth& truth, const fs::path& folder, double max_dt_s,
@@ -47,22 +71,8 @@ void evaluateGraph(const Truth& truth, const fs::path& folder, double max_dt_s,
   if (!stream) throw std::runtime_error("cannot read '" + file.string() + "'");
   const LayeredGraph graph = readGraphJson(stream, file.string());
   result->surface_residuals = surfaceResiduals(graph);
-  const GraphSnapshotConstPtr snapshot = graph.snapshot();
-  const TrueBuilding& building = truth.building;
-  const Pose& T_truth_map = result->trajectory.T_truth_run;
-  if (!building.rooms.empty()) {
-    result->rooms = evaluateRooms(building, listOf(snapshot->rooms), T_truth_map, truth.trajectory);
-  }
-  if (!building.floors.empty()) {
-    const Trajectory run = readTum((folder / "trajectory.tum").string());
-    result->floors =
-        evaluateFloors(building, truth.trajectory, *snapshot,
-                       pairByTime(truth.trajectory, run, max_dt_s).pairs, T_truth_map, max_dt_s);
-  }
-  const bool has_sides = std::any_of(building.walls.begin(), building.walls.end(),
-                                     [](const TrueWall& wall) { return wall.plane.has_value(); });
-  if (!has_sides) return;
-  result->walls = evaluateWalls(building.walls, listOf(snapshot->walls), T_truth_map);
+  const Trajectory run = readTum((folder / "trajectory.tum").string());
+  naming(file, [&] { evaluateLayers(truth, *graph.snapshot(), run, max_dt_s, result); });
 }
 
 }  // namespace

@@ -229,6 +229,15 @@ TEST_F(RoomEvaluationTest, JudgesTheRoomsAndFloorsOfTheGraph) {
   EXPECT_NE(table.find("1 floors on 1 storeys, exact"), std::string::npos) << table;
 }
 
+TEST_F(RoomEvaluationTest, NamesAGraphWhoseRoomsAreTooLarge) {
+  const std::string json = folder_.read("baseline/graph.json");
+  const std::string path = folder_.write("baseline/graph.json", test::with(json, "9.0", "9e200"));
+  const Truth truth = readTruth(folder_.file("sim"));
+  const std::string message = messageOf<std::runtime_error>(
+      [&] { evaluateRun(truth, folder_.file("baseline"), kMaxDt_s); });
+  EXPECT_NE(message.find(path), std::string::npos) << message;
+}
+
 TEST_F(WallEvaluationTest, NamesAGraphThatItCannotRead) {
   const std::string path = folder_.write("baseline/graph.json", "{}");
   const Truth truth = readTruth(folder_.file("sim"));

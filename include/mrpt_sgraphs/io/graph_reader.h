@@ -17,8 +17,8 @@ namespace mrpt_sgraphs {
 ///
 /// @param name  What the file is called in errors.
 /// @throws std::runtime_error that says where in the file what is wrong, for anything else: no
-/// JSON,
-///         another version, a field that is missing or of the wrong type, a node that is not there.
+///         JSON, another version, a field that is missing or of the wrong type, a node that is not
+///         there.
 LayeredGraph readGraphJson(std::istream& in, const std::string& name = "graph.json");
 
 }  // namespace mrpt_sgraphs
