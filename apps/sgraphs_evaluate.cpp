@@ -22,7 +22,11 @@ constexpr const char* kUsage =
     "  sgraphs_evaluate --truth DIR|FILE.tum RUN [RUN ...] [options]\n"
     "\n"
     "  --truth PATH      a folder of sgraphs_simulate, or a trajectory in TUM format. A\n"
-    "                    building.json beside the trajectory is used for map and walls\n"
+    "                    building.json beside the trajectory is used for map, walls, rooms and\n"
+    "                    floors\n"
+    "  --rooms FILE      true rooms from a list of boxes: [{\"name\", \"min\", \"max\"}, ...]. It "
+    "need\n"
+    "                    not be complete, but the robot was in all of them\n"
     "  RUN               a folder of sgraphs_offline, or a trajectory in TUM format. The first\n"
     "                    run is the baseline of the optimization times of the others\n"
     "  --max-dt S        poses farther apart in time are not of one scan (default 0.01)\n"
@@ -40,6 +44,7 @@ struct UsageError : std::invalid_argument {
 
 struct Options {
   std::string truth;
+  std::string rooms;  ///< Empty: those of the truth.
   std::vector<std::string> runs;
   double max_dt_s = 0.01;  ///< A tenth of a sweep at 10 Hz.
   bool json = false;
@@ -70,6 +75,8 @@ Options parse(const std::vector<std::string>& arguments) {
       options.json = true;
     } else if (argument == "--truth") {
       options.truth = value();
+    } else if (argument == "--rooms") {
+      options.rooms = value();
     } else if (argument == "--max-dt") {
       options.max_dt_s = positiveNumber("--max-dt", value());
     } else if (argument == "--align-scale") {
@@ -87,7 +94,8 @@ Options parse(const std::vector<std::string>& arguments) {
 }
 
 void evaluate(const Options& options) {
-  const mrpt_sgraphs::Truth truth = mrpt_sgraphs::readTruth(options.truth);
+  mrpt_sgraphs::Truth truth = mrpt_sgraphs::readTruth(options.truth);
+  if (!options.rooms.empty()) mrpt_sgraphs::readRoomBoxes(options.rooms, &truth.building);
   std::vector<mrpt_sgraphs::RunEvaluation> runs;
   for (const std::string& run : options.runs) {
     runs.push_back(mrpt_sgraphs::evaluateRun(truth, run, options.max_dt_s));

@@ -16,7 +16,6 @@ Needs numpy and matplotlib: apt install python3-matplotlib, or a virtual environ
 import argparse
 import json
 import math
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +24,8 @@ import matplotlib
 
 matplotlib.use("Agg")  # no display is needed
 import matplotlib.pyplot as plt  # noqa: E402
+
+from drawing import building_of, close, evaluate, truth_motion  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
 MAX_POINTS = 150000  # that are drawn from above
@@ -102,36 +103,16 @@ def walls_of(graph):
             for wall in graph["walls"] if len(wall["polygon"]) >= 3]
 
 
-def rotation_of(x, y, z, w):
-    return np.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ])
-
-
 def true_walls_of(truth, evaluation):
     """The building's walls in the frame of the run."""
-    folder = truth if truth.is_dir() else truth.parent
-    path = next((p for p in (folder / "truth/building.json", folder / "building.json")
-                 if p.exists()), None)
-    if path is None:
-        raise SystemExit(f"there is no building.json in {folder}")
-    motion = evaluation["trajectory"]["T_truth_run"]
-    R, t = rotation_of(*motion[3:]), np.array(motion[:3])
+    R, t = truth_motion(evaluation)
     walls = []
-    for wall in json.loads(path.read_text())["walls"]:
+    for wall in building_of(truth)["walls"]:
         polygon = (np.array(wall["polygon"]) - t) @ R  # each row R' (p - t)
         holes = [(np.array(hole) - t) @ R for hole in wall["holes"]]
         normal = np.array(wall["normal"])
         walls.append(Wall(wall["id"], normal @ R, wall["distance"] - normal @ t, polygon, holes))
     return walls
-
-
-def evaluate(run, truth, build):
-    command = [build / "devel/lib/mrpt_sgraphs/sgraphs_evaluate", "--truth", truth, run, "--json"]
-    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, check=True)
-    return json.loads(done.stdout)["runs"][0]
 
 
 def draw_from_above(axes, points, walls, true_walls, judged, z_min, z_max):
@@ -156,10 +137,6 @@ def draw_from_above(axes, points, walls, true_walls, judged, z_min, z_max):
         axes.annotate(str(wall.number), tip, fontsize=6, ha="center", va="center", zorder=3)
     axes.set_aspect("equal")
     axes.set_title(f"{len(walls)} walls; points from z = {z_min:.1f} to {z_max:.1f} m", fontsize=9)
-
-
-def close(ring):
-    return np.vstack([ring, ring[:1]])
 
 
 def draw_from_its_side(axes, points, wall):

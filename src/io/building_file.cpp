@@ -3,6 +3,7 @@
 #include "mrpt_sgraphs/io/building_file.h"
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -15,11 +16,7 @@ namespace {
 TrueWall wallFrom(const JsonPlace& place, std::size_t index) {
   TrueWall wall;
   wall.id = place.has("id") ? place["id"].id() : index;
-  wall.extent.outline = place["polygon"].outline();
-  if (place.has("holes")) {
-    const JsonPlace holes = place["holes"];
-    for (std::size_t k = 0; k < holes.size(); ++k) wall.extent.holes.push_back(holes[k].outline());
-  }
+  wall.extent = place.extent();
   if (place.has("normal")) {
     wall.plane = Plane{place["normal"].unitVector(), place["distance"].number()};
   }
@@ -27,37 +24,111 @@ TrueWall wallFrom(const JsonPlace& place, std::size_t index) {
   return wall;
 }
 
+TrueRoom::Kind kindOf(const JsonPlace& place) {
+  const std::string kind = place.string();
+  if (kind == "room") return TrueRoom::Kind::kRoom;
+  if (kind == "corridor") return TrueRoom::Kind::kCorridor;
+  if (kind == "stairwell") return TrueRoom::Kind::kStairwell;
+  place.fail("is none of room, corridor, stairwell");
+}
+
+TrueRoom roomFrom(const JsonPlace& place, std::size_t index) {
+  TrueRoom room;
+  room.id = place.has("id") ? place["id"].id() : index;
+  if (place.has("name")) room.name = place["name"].string();
+  if (place.has("kind")) room.kind = kindOf(place["kind"]);
+  room.extent = place.extent();
+  if (room.extent.outline.size() < 3) place["polygon"].fail("has fewer than 3 corners");
+  if (place.has("height")) room.height_m = place["height"].number();
+  if (place.has("entered")) room.entered = place["entered"].boolean();
+  return room;
+}
+
+PlanarExtent raised(const PlanarExtent& extent, double height_m) {
+  return mapped(extent, [height_m](const Eigen::Vector3d& corner) -> Eigen::Vector3d {
+    return corner + height_m * Eigen::Vector3d::UnitZ();
+  });
+}
+
+void addSurface(const PlanarExtent& extent, TrueBuilding* building) {
+  building->surfaces.emplace_back(extent.outline, extent.holes);
+}
+
 TrueBuilding buildingFrom(const JsonPlace& document) {
   TrueBuilding building;
   const JsonPlace walls = document["walls"];
   for (std::size_t k = 0; k < walls.size(); ++k) {
-    const TrueWall& wall = building.walls.emplace_back(wallFrom(walls[k], k));
-    building.surfaces.emplace_back(wall.extent.outline, wall.extent.holes);
+    addSurface(building.walls.emplace_back(wallFrom(walls[k], k)).extent, &building);
   }
   const JsonPlace rooms = document["rooms"];
   for (std::size_t k = 0; k < rooms.size(); ++k) {
-    const JsonPlace room = rooms[k];
-    Outline3 outline = room["polygon"].outline();
-    building.surfaces.emplace_back(outline, std::vector<Outline3>{});
-    if (!room.has("height")) continue;
-    for (Eigen::Vector3d& corner : outline) corner.z() += room["height"].number();
-    building.surfaces.emplace_back(outline, std::vector<Outline3>{});
+    const TrueRoom& room = building.rooms.emplace_back(roomFrom(rooms[k], k));
+    addSurface(room.extent, &building);
+    if (room.height_m) addSurface(raised(room.extent, *room.height_m), &building);
   }
   if (building.surfaces.empty()) throw std::runtime_error("it has no walls and no rooms");
+  if (!document.has("floors")) return building;
+  const JsonPlace floors = document["floors"];
+  for (std::size_t k = 0; k < floors.size(); ++k) {
+    const uint64_t id = floors[k].has("id") ? floors[k]["id"].id() : k;
+    building.floors.push_back({id, floors[k]["elevation"].number()});
+  }
   return building;
+}
+
+TrueRoom boxFrom(const JsonPlace& place, std::size_t index) {
+  const Eigen::Vector3d min = place["min"].vector(3);
+  const Eigen::Vector3d max = place["max"].vector(3);
+  if (!(min.array() < max.array()).all()) place["max"].fail("is not above min");
+  TrueRoom room;
+  room.id = index;
+  room.name = place["name"].string();
+  room.extent.outline = {
+      min, {max.x(), min.y(), min.z()}, {max.x(), max.y(), min.z()}, {min.x(), max.y(), min.z()}};
+  room.height_m = max.z() - min.z();
+  return room;
+}
+
+void addFloorAt(double elevation_m, std::vector<TrueFloor>* floors) {
+  constexpr double kOneFloor_m = 0.3;
+  for (const TrueFloor& floor : *floors) {
+    if (std::abs(floor.elevation_m - elevation_m) <= kOneFloor_m) return;
+  }
+  floors->push_back({floors->size(), elevation_m});
+}
+
+/// What `read` makes of a file of JSON; whatever is wrong with it is told with the file's name.
+template <typename Read>
+void readJsonFile(const std::string& path, const char* name, const Read& read) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read '" + path + "': " + std::strerror(errno));
+  try {
+    const Json json = Json::parse(file);
+    read(JsonPlace(json, name));
+  } catch (const std::exception& error) {
+    throw std::runtime_error("cannot read '" + path + "': " + error.what());
+  }
 }
 
 }  // namespace
 
 TrueBuilding readBuilding(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot read '" + path + "': " + std::strerror(errno));
-  try {
-    const Json json = Json::parse(file);
-    return buildingFrom(JsonPlace(json, "building"));
-  } catch (const std::exception& error) {
-    throw std::runtime_error("cannot read '" + path + "': " + error.what());
-  }
+  TrueBuilding building;
+  readJsonFile(path, "building",
+               [&](const JsonPlace& document) { building = buildingFrom(document); });
+  return building;
+}
+
+void readRoomBoxes(const std::string& path, TrueBuilding* building) {
+  building->rooms.clear();
+  building->floors.clear();
+  building->all_rooms_listed = false;
+  readJsonFile(path, "rooms", [&](const JsonPlace& list) {
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      const TrueRoom& room = building->rooms.emplace_back(boxFrom(list[k], k));
+      addFloorAt(room.extent.outline.front().z(), &building->floors);
+    }
+  });
 }
 
 }  // namespace mrpt_sgraphs

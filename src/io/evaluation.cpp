@@ -26,26 +26,53 @@ fs::path truthFile(const fs::path& path) {
                            "' holds neither truth/trajectory.tum nor trajectory.tum");
 }
 
-TrajectoryErrors evaluateFile(const Truth& truth, const fs::path& file, double max_dt_s) {
-  const Trajectory trajectory = readTum(file.string());
+/// What the action returns; what it throws names the file.
+template <typename Action>
+auto naming(const fs::path& file, const Action& action) {
   try {
-    return evaluateTrajectory(truth.trajectory, trajectory, max_dt_s);
-  } catch (const std::runtime_error& error) {
+    return action();
+  } catch (const std::exception& error) {
     throw std::runtime_error("'" + file.string() + "': " + error.what());
   }
 }
 
-void evaluateGraph(const Truth& truth, const fs::path& file, RunEvaluation* result) {
+TrajectoryErrors evaluateFile(const Truth& truth, const fs::path& file, double max_dt_s) {
+  const Trajectory trajectory = readTum(file.string());
+  return naming(file, [&] { return evaluateTrajectory(truth.trajectory, trajectory, max_dt_s); });
+}
+
+template <typename Node>
+std::vector<Node> listOf(const SharedVector<Node>& nodes) {
+  return {nodes.begin(), nodes.end()};
+}
+
+/// The layers of a graph against the building. What the building does not know is left out.
+void evaluateLayers(const Truth& truth, const GraphSnapshot& graph, const Trajectory& run,
+                    double max_dt_s, RunEvaluation* result) {
+  const TrueBuilding& building = truth.building;
+  const Pose& T_truth_map = result->trajectory.T_truth_run;
+  if (!building.rooms.empty()) {
+    result->rooms = evaluateRooms(building, listOf(graph.rooms), T_truth_map, truth.trajectory);
+  }
+  if (!building.floors.empty()) {
+    const PairedTrajectories paired = pairByTime(truth.trajectory, run, max_dt_s);
+    result->floors =
+        evaluateFloors(building, truth.trajectory, graph, paired.pairs, T_truth_map, max_dt_s);
+  }
+  const bool has_sides = std::any_of(building.walls.begin(), building.walls.end(),
+                                     [](const TrueWall& wall) { return wall.plane.has_value(); });
+  if (has_sides) result->walls = evaluateWalls(building.walls, listOf(graph.walls), T_truth_map);
+}
+
+void evaluateGraph(const Truth& truth, const fs::path& folder, double max_dt_s,
+                   RunEvaluation* result) {
+  const fs::path file = folder / "graph.json";
   std::ifstream stream(file);
   if (!stream) throw std::runtime_error("cannot read '" + file.string() + "'");
   const LayeredGraph graph = readGraphJson(stream, file.string());
   result->surface_residuals = surfaceResiduals(graph);
-  const bool has_sides = std::any_of(truth.building.walls.begin(), truth.building.walls.end(),
-                                     [](const TrueWall& wall) { return wall.plane.has_value(); });
-  if (!has_sides) return;
-  const GraphSnapshotConstPtr snapshot = graph.snapshot();
-  const std::vector<WallNode> walls(snapshot->walls.begin(), snapshot->walls.end());
-  result->walls = evaluateWalls(truth.building.walls, walls, result->trajectory.T_truth_run);
+  const Trajectory run = readTum((folder / "trajectory.tum").string());
+  naming(file, [&] { evaluateLayers(truth, *graph.snapshot(), run, max_dt_s, result); });
 }
 
 }  // namespace
@@ -78,7 +105,7 @@ RunEvaluation evaluateRun(const Truth& truth, const std::string& run, double max
     result.map =
         evaluateMap(truth.building.surfaces, readPcd(map.string()), result.trajectory.T_truth_run);
   }
-  if (fs::exists(folder / "graph.json")) evaluateGraph(truth, folder / "graph.json", &result);
+  if (fs::exists(folder / "graph.json")) evaluateGraph(truth, folder, max_dt_s, &result);
   const fs::path optimizations = folder / "optimizations.csv";
   if (fs::exists(optimizations)) {
     result.optimizations = readOptimizationTimes(optimizations.string());

@@ -79,6 +79,50 @@ Json toJson(const WallErrors& e) {
           {"twice", e.twice}};
 }
 
+Json toJson(const RoomErrors& e) {
+  Json matches = Json::array();
+  for (const RoomErrors::Match& match : e.matches) {
+    matches.push_back({{"true", match.truth}, {"found", match.found}, {"iou", match.iou}});
+  }
+  return {{"found", e.found},
+          {"right", e.matches.size()},
+          {"precision", e.precision()},
+          {"true_rooms", e.true_rooms},
+          {"recall", e.recall()},
+          {"mean_iou", e.mean_iou},
+          {"mean_iou_of_matched", e.mean_iou_of_matched},
+          {"matches", matches},
+          {"missed", e.missed},
+          {"wrong", e.wrong},
+          {"not_listed", e.not_listed},
+          {"left_out", e.left_out},
+          {"over_segmented", e.over_segmented},
+          {"under_segmented", e.under_segmented},
+          {"corridors", e.corridors},
+          {"whole_corridors", e.whole_corridors}};
+}
+
+Json toJson(const FloorErrors::Level& level) {
+  return {{"id", level.id},
+          {"found", level.found ? Json(*level.found) : Json(nullptr)},
+          {"elevation_m", level.elevation_m},
+          {"height_error_m", level.height_error_m},
+          {"tilt_deg", level.tilt_deg},
+          {"poses", level.poses},
+          {"z_mean_m", level.z_mean_m},
+          {"z_spread_m", level.z_spread_m},
+          {"z_rmse_m", level.z_rmse_m}};
+}
+
+Json toJson(const FloorErrors& e) {
+  Json levels = Json::array();
+  for (const FloorErrors::Level& level : e.levels) levels.push_back(toJson(level));
+  return {{"found", e.found},         {"true_floors", e.levels.size()},
+          {"exact", e.exact()},       {"levels", levels},
+          {"wrong", e.wrong},         {"between_error_m", e.between_error_m},
+          {"keyframes", e.keyframes}, {"wrong_keyframes", e.wrong_keyframes}};
+}
+
 Json toJson(const ResidualStatistics& s) {
   return {{"count", s.count}, {"mean_chi2", s.mean_chi2}, {"above_95", s.above_95}};
 }
@@ -103,6 +147,8 @@ std::string evaluationJson(const Truth& truth, const std::vector<RunEvaluation>&
                     {"odometry", toJson(run.odometry)},
                     {"map", toJson(run.map)},
                     {"walls", toJson(run.walls)},
+                    {"rooms", toJson(run.rooms)},
+                    {"floors", toJson(run.floors)},
                     {"surface_residuals", toJson(run.surface_residuals)},
                     {"optimizations", toJson(run.optimizations)},
                     {"reduction_percent", reductionPercent(run, runs.front())}});

@@ -104,6 +104,12 @@ std::string idList(const std::vector<uint64_t>& ids) {
   return list;
 }
 
+/// A line that names what is wrong, if anything is.
+std::string idLine(const std::string& run, const std::string& what,
+                   const std::vector<uint64_t>& ids) {
+  return ids.empty() ? "" : "  " + run + ": " + what + idList(ids) + "\n";
+}
+
 std::string wallTable(const std::vector<RunEvaluation>& runs) {
   std::vector<Row> rows{{"run", "walls", "right", "precision", "to find", "found", "recall",
                          "twice", "deg", "90 %", "m", "90 %"}};
@@ -117,13 +123,68 @@ std::string wallTable(const std::vector<RunEvaluation>& runs) {
                     std::to_string(e.duplicates), text(e.normal_deg.median, 3),
                     text(e.normal_deg.p90, 3), text(e.offset_m.median, kLengthDigits),
                     text(e.offset_m.p90, kLengthDigits)});
-    if (!e.missed.empty()) ids += "  " + run.name + ": true walls missed" + idList(e.missed) + "\n";
-    if (!e.twice.empty()) ids += "  " + run.name + ": found twice" + idList(e.twice) + "\n";
-    if (!e.wrong.empty()) ids += "  " + run.name + ": walls wrong" + idList(e.wrong) + "\n";
+    ids += idLine(run.name, "true walls missed", e.missed) +
+           idLine(run.name, "found twice", e.twice) + idLine(run.name, "walls wrong", e.wrong);
   }
   const std::string table = layOut(
       "Walls: how many of those found are there, and of those seen well enough are found;\n"
       "median and 90 % of the error of the normal and of the offset",
+      rows, 1);
+  return ids.empty() ? table : table + ids + "\n";
+}
+
+std::string roomTable(const std::vector<RunEvaluation>& runs) {
+  std::vector<Row> rows{{"run", "rooms", "right", "precision", "to find", "recall", "mean IoU",
+                         "of right", "over", "under", "corridors", "whole"}};
+  std::string ids;
+  for (const RunEvaluation& run : runs) {
+    if (!run.rooms) continue;
+    const RoomErrors& e = *run.rooms;
+    rows.push_back({run.name, std::to_string(e.found), std::to_string(e.matches.size()),
+                    text(e.precision(), 3), std::to_string(e.true_rooms), text(e.recall(), 3),
+                    text(e.mean_iou, 3), text(e.mean_iou_of_matched, 3),
+                    std::to_string(e.over_segmented.size()),
+                    std::to_string(e.under_segmented.size()), std::to_string(e.corridors),
+                    std::to_string(e.whole_corridors)});
+    ids += idLine(run.name, "true rooms missed", e.missed) +
+           idLine(run.name, "rooms wrong", e.wrong) +
+           idLine(run.name, "of these entered, but not listed", e.not_listed) +
+           idLine(run.name, "rooms left out", e.left_out) +
+           idLine(run.name, "true rooms found in parts", e.over_segmented) +
+           idLine(run.name, "rooms that join true ones", e.under_segmented);
+  }
+  const std::string table = layOut(
+      "Rooms that the robot entered, right from an intersection over union (IoU) of 0.5 on; mean\n"
+      "IoU over all that were to find (0 for missed ones) and over the right ones alone",
+      rows, 1);
+  return ids.empty() ? table : table + ids + "\n";
+}
+
+std::string floorTable(const std::vector<RunEvaluation>& runs) {
+  std::vector<Row> rows{
+      {"run", "storey", "floor", "height m", "tilt deg", "poses", "z mean", "z spread", "z rmse"}};
+  std::string ids;
+  for (const RunEvaluation& run : runs) {
+    if (!run.floors) continue;
+    const FloorErrors& e = *run.floors;
+    for (const FloorErrors::Level& level : e.levels) {
+      rows.push_back({run.name, std::to_string(level.id),
+                      level.found ? std::to_string(*level.found) : "-",
+                      text(level.height_error_m, kLengthDigits), text(level.tilt_deg, 3),
+                      std::to_string(level.poses), text(level.z_mean_m, kLengthDigits),
+                      text(level.z_spread_m, kLengthDigits), text(level.z_rmse_m, kLengthDigits)});
+    }
+    ids += "  " + run.name + ": " + std::to_string(e.found) + " floors on " +
+           std::to_string(e.levels.size()) + " storeys, " + (e.exact() ? "exact" : "not exact") +
+           "; " + std::to_string(e.wrong_keyframes.size()) + " of " + std::to_string(e.keyframes) +
+           " keyframes on the wrong one; error between grounds " +
+           text(e.between_error_m, kLengthDigits) + " m\n" +
+           idLine(run.name, "floors wrong", e.wrong) +
+           idLine(run.name, "keyframes on the wrong floor", e.wrong_keyframes);
+  }
+  const std::string table = layOut(
+      "Storeys that the robot was on: error of the ground's height and its tilt; error of the\n"
+      "trajectory's height [m]: mean, standard deviation, RMSE",
       rows, 1);
   return ids.empty() ? table : table + ids + "\n";
 }
@@ -168,7 +229,7 @@ std::string timeTable(const std::vector<RunEvaluation>& runs) {
 std::string evaluationTable(const Truth& truth, const std::vector<RunEvaluation>& runs) {
   return "Truth: " + truth.path + ", " + std::to_string(truth.trajectory.size()) + " poses\n\n" +
          absoluteTable(runs) + relativeTable(runs) + mapTable(runs) + wallTable(runs) +
-         residualTable(runs) + timeTable(runs);
+         roomTable(runs) + floorTable(runs) + residualTable(runs) + timeTable(runs);
 }
 
 }  // namespace mrpt_sgraphs

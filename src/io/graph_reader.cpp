@@ -49,12 +49,25 @@ void addKeyframe(const JsonPlace& place, LayeredGraph* graph) {
 
 void addWall(const JsonPlace& place, LayeredGraph* graph) {
   WallAttributes attributes;
-  attributes.extent_map.outline = place["polygon"].outline();
-  const JsonPlace holes = place["holes"];
-  for (std::size_t k = 0; k < holes.size(); ++k) {
-    attributes.extent_map.holes.push_back(holes[k].outline());
-  }
+  attributes.extent_map = place.extent();
+  if (place.has("floor")) attributes.floor = idOrNull<FloorId>(place["floor"]);
   graph->restoreWall(WallId{place["id"].id()}, place["plane"].plane(), attributes);
+}
+
+Doorway doorwayAt(const JsonPlace& place) {
+  Doorway doorway;
+  doorway.to = idOrNull<RoomId>(place["to"]);
+  doorway.centre_map = place["centre"].vector(3);
+  doorway.width_m = place["width"].number();
+  return doorway;
+}
+
+FloorConnection connectionAt(const JsonPlace& place) {
+  FloorConnection connection;
+  connection.to = FloorId{place["to"].id()};
+  connection.here_map = place["here"].vector(3);
+  connection.there_map = place["there"].vector(3);
+  return connection;
 }
 
 void addRoom(const JsonPlace& place, LayeredGraph* graph) {
@@ -65,7 +78,14 @@ void addRoom(const JsonPlace& place, LayeredGraph* graph) {
   attributes.floor = idOrNull<FloorId>(place["floor"]);
   attributes.size_m = place["size"].vector(2);
   attributes.name = place["name"].string();
-  attributes.extent_map.outline = place["polygon"].outline();
+  attributes.extent_map = place.extent();
+  if (place.has("height")) attributes.height_m = place["height"].number();
+  if (place.has("doorways")) {
+    const JsonPlace doorways = place["doorways"];
+    for (std::size_t k = 0; k < doorways.size(); ++k) {
+      attributes.doorways.push_back(doorwayAt(doorways[k]));
+    }
+  }
   graph->restoreRoom(RoomId{place["id"].id()}, place["pose"].pose(), attributes);
 }
 
@@ -73,6 +93,12 @@ void addFloor(const JsonPlace& place, LayeredGraph* graph) {
   FloorAttributes attributes;
   attributes.centre_map = place["centre"].vector(3);
   attributes.name = place["name"].string();
+  if (place.has("connections")) {
+    const JsonPlace connections = place["connections"];
+    for (std::size_t k = 0; k < connections.size(); ++k) {
+      attributes.connections.push_back(connectionAt(connections[k]));
+    }
+  }
   graph->restoreFloor(FloorId{place["id"].id()}, place["plane"].plane(), attributes);
 }
 
@@ -89,11 +115,24 @@ void requireReferences(const LayeredGraph& graph, const JsonPlace& document) {
     if (keyframe.room) requireNode(graph, *keyframe.room, keyframes[k]);
     if (keyframe.representative) requireNode(graph, *keyframe.representative, keyframes[k]);
   }
+  const JsonPlace walls = document["walls"];
+  for (std::size_t k = 0; k < walls.size(); ++k) {
+    const WallAttributes& wall = graph.attributes(WallId{walls[k]["id"].id()});
+    if (wall.floor) requireNode(graph, *wall.floor, walls[k]);
+  }
+  const JsonPlace floors = document["floors"];
+  for (std::size_t k = 0; k < floors.size(); ++k) {
+    const FloorAttributes& floor = graph.attributes(FloorId{floors[k]["id"].id()});
+    for (const FloorConnection& way : floor.connections) requireNode(graph, way.to, floors[k]);
+  }
   const JsonPlace rooms = document["rooms"];
   for (std::size_t k = 0; k < rooms.size(); ++k) {
     const RoomAttributes& room = graph.attributes(RoomId{rooms[k]["id"].id()});
     if (room.floor) requireNode(graph, *room.floor, rooms[k]);
     for (const WallId wall : room.walls) requireNode(graph, wall, rooms[k]);
+    for (const Doorway& doorway : room.doorways) {
+      if (doorway.to) requireNode(graph, *doorway.to, rooms[k]);
+    }
   }
 }
 

@@ -50,7 +50,18 @@ Json nodeJson(const WallNode& wall) {
   return {{"id", wall.id.value},
           {"plane", toJson(wall.plane_map)},
           {"polygon", polygon(wall.extent_map.outline)},
-          {"holes", holes(wall.extent_map)}};
+          {"holes", holes(wall.extent_map)},
+          {"floor", idOrNull(wall.floor)}};
+}
+
+Json doorways(const RoomNode& room) {
+  Json list = Json::array();
+  for (const Doorway& doorway : room.doorways) {
+    list.push_back({{"to", idOrNull(doorway.to)},
+                    {"centre", toJson(Eigen::VectorXd(doorway.centre_map))},
+                    {"width", doorway.width_m}});
+  }
+  return list;
 }
 
 Json nodeJson(const RoomNode& room, const std::vector<KeyframeId>& keyframes) {
@@ -63,20 +74,54 @@ Json nodeJson(const RoomNode& room, const std::vector<KeyframeId>& keyframes) {
           {"keyframes", listOf(keyframes)},
           {"size", toJson(Eigen::VectorXd(room.size_m))},
           {"name", room.name},
-          {"polygon", polygon(room.extent_map.outline)}};
+          {"polygon", polygon(room.extent_map.outline)},
+          {"holes", holes(room.extent_map)},
+          {"height", room.height_m},
+          {"doorways", doorways(room)}};
 }
 
-Json nodeJson(const FloorNode& floor) {
+Json connections(const FloorNode& floor) {
+  Json list = Json::array();
+  for (const FloorConnection& connection : floor.connections) {
+    list.push_back({{"to", connection.to.value},
+                    {"here", toJson(Eigen::VectorXd(connection.here_map))},
+                    {"there", toJson(Eigen::VectorXd(connection.there_map))}});
+  }
+  return list;
+}
+
+/// What belongs to a floor or room, as those nodes say themselves.
+struct Members {
+  std::map<RoomId, std::vector<KeyframeId>> keyframes_in;
+  std::map<FloorId, std::vector<KeyframeId>> keyframes_on;
+  std::map<FloorId, std::vector<RoomId>> rooms_on;
+
+  explicit Members(const GraphSnapshot& graph) {
+    for (const KeyframeNode& keyframe : graph.keyframes) {
+      if (keyframe.room) keyframes_in[*keyframe.room].push_back(keyframe.id);
+      if (keyframe.floor) keyframes_on[*keyframe.floor].push_back(keyframe.id);
+    }
+    for (const RoomNode& room : graph.rooms) {
+      if (room.floor) rooms_on[*room.floor].push_back(room.id);
+    }
+  }
+};
+
+Json nodeJson(const FloorNode& floor, const std::vector<RoomId>& rooms,
+              const std::vector<KeyframeId>& keyframes) {
   return {{"id", floor.id.value},
           {"plane", toJson(floor.ground_map)},
           {"centre", toJson(Eigen::VectorXd(floor.centre_map))},
-          {"name", floor.name}};
+          {"name", floor.name},
+          {"connections", connections(floor)},
+          {"rooms", listOf(rooms)},
+          {"keyframes", listOf(keyframes)}};
 }
 
 }  // namespace
 
 void writeGraphJson(const GraphSnapshot& graph, std::ostream& out) {
-  std::map<RoomId, std::vector<KeyframeId>> keyframes_in;
+  Members members(graph);
   Json document{{"format", "mrpt_sgraphs/graph"},
                 {"version", kGraphVersion},
                 {"map_odom", toJson(graph.T_map_odom)}};
@@ -85,13 +130,15 @@ void writeGraphJson(const GraphSnapshot& graph, std::ostream& out) {
   }
   for (const KeyframeNode& keyframe : graph.keyframes) {
     document["keyframes"].push_back(nodeJson(keyframe));
-    if (keyframe.room) keyframes_in[*keyframe.room].push_back(keyframe.id);
   }
   for (const WallNode& wall : graph.walls) document["walls"].push_back(nodeJson(wall));
   for (const RoomNode& room : graph.rooms) {
-    document["rooms"].push_back(nodeJson(room, keyframes_in[room.id]));
+    document["rooms"].push_back(nodeJson(room, members.keyframes_in[room.id]));
   }
-  for (const FloorNode& floor : graph.floors) document["floors"].push_back(nodeJson(floor));
+  for (const FloorNode& floor : graph.floors) {
+    document["floors"].push_back(
+        nodeJson(floor, members.rooms_on[floor.id], members.keyframes_on[floor.id]));
+  }
   for (const StoredFactor& stored : graph.factors) {
     document["factors"].push_back(toJson(*stored.factor));
   }

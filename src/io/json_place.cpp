@@ -106,6 +106,14 @@ Outline3 JsonPlace::outline() const {
   return corners;
 }
 
+PlanarExtent JsonPlace::extent() const {
+  PlanarExtent extent{(*this)["polygon"].outline(), {}};
+  if (!has("holes")) return extent;
+  const JsonPlace holes = (*this)["holes"];
+  for (std::size_t k = 0; k < holes.size(); ++k) extent.holes.push_back(holes[k].outline());
+  return extent;
+}
+
 Pose JsonPlace::pose() const {
   const Eigen::VectorXd v = vector(7);
   Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);

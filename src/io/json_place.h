@@ -39,6 +39,7 @@ class JsonPlace {
   Eigen::VectorXd vector(Eigen::Index size) const;
   Eigen::Vector3d unitVector() const;
   Outline3 outline() const;
+  PlanarExtent extent() const;  ///< Of an object with a `polygon`, and `holes` if it has any.
   Pose pose() const;
   Plane plane() const;
   NodeId node() const;

@@ -37,4 +37,8 @@ double rootMeanSquare(const std::vector<double>& values) {
   return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
+double ratio(std::size_t part, std::size_t whole) {
+  return whole == 0 ? kNaN : static_cast<double>(part) / static_cast<double>(whole);
+}
+
 }  // namespace mrpt_sgraphs

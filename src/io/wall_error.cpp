@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "mrpt_sgraphs/io/statistics.h"
@@ -122,11 +121,6 @@ void judgeFaces(const TrueSurface& surface, const std::vector<TrueWall>& truth,
       ++errors->found_true;
     }
   }
-}
-
-double ratio(std::size_t part, std::size_t whole) {
-  if (whole == 0) return std::numeric_limits<double>::quiet_NaN();
-  return static_cast<double>(part) / static_cast<double>(whole);
 }
 
 }  // namespace

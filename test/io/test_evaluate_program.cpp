@@ -68,6 +68,20 @@ TEST_F(EvaluateProgramTest, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(folder_.read("out"), "");
 }
 
+TEST_F(EvaluateProgramTest, TakesRoomsFromAListOfBoxes) {
+  folder_.write("rooms.json", R"([{"name": "a", "min": [0, 0, 0], "max": [4, 3, 2.5]}])");
+  folder_.write("run/trajectory.tum", folder_.read("run.tum"));
+  folder_.write("run/graph.json", R"({"format": "mrpt_sgraphs/graph", "version": 2,
+    "map_odom": [0, 0, 0, 0, 0, 0, 1], "keyframes": [], "walls": [], "rooms": [], "floors": [],
+    "factors": []})");
+  ASSERT_EQ(evaluate("--truth truth.tum run --rooms rooms.json --json"), 0);
+  const auto json = nlohmann::json::parse(folder_.read("out"));
+  EXPECT_EQ(json.at("runs").at(0).at("rooms").at("true_rooms"), 1);
+  EXPECT_EQ(json.at("runs").at(0).at("rooms").at("recall"), 0.0);
+  EXPECT_EQ(evaluate("--truth truth.tum run --rooms nowhere.json"), kFailed);
+  EXPECT_NE(folder_.read("err").find("nowhere.json"), std::string::npos);
+}
+
 TEST_F(EvaluateProgramTest, ExplainsItsUsage) {
   EXPECT_EQ(evaluate("--help"), 0);
   for (const char* arguments :

@@ -175,6 +175,69 @@ TEST_F(WallEvaluationTest, WithoutSidesThereIsNothingToCompareWith) {
   EXPECT_TRUE(run.surface_residuals.has_value());
 }
 
+/// The room of kBuilding on its floor, and a graph that has both.
+class RoomEvaluationTest : public EvaluationTest {
+ protected:
+  RoomEvaluationTest() {
+    folder_.write("sim/truth/building.json",
+                  test::with(kBuilding, R"("walls")", R"("floors": [{"id": 2, "elevation": 0}],
+      "walls")"));
+    LayeredGraph graph;
+    const FloorId floor = graph.addFloor({Eigen::Vector3d::UnitZ(), 0.01}, {});
+    RoomAttributes room;
+    room.floor = floor;
+    room.extent_map.outline = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}};
+    graph.addRoom(Pose::Identity(), room);
+    room.extent_map.outline = {{8, 0, 0}, {9, 0, 0}, {9, 3, 0}, {8, 3, 0}};
+    graph.addRoom(Pose::Identity(), room);
+    std::ostringstream json;
+    writeGraphJson(*graph.snapshot(), json);
+    folder_.write("baseline/graph.json", json.str());
+    writeTum(folder_.file("sim/truth/trajectory.tum"), levelWalk());
+    writeTum(folder_.file("baseline/trajectory.tum"), levelWalk());  // aligned as it is
+    writeTum(folder_.file("condensed/trajectory.tum"), levelWalk());
+  }
+
+  static Trajectory levelWalk() {
+    Trajectory walk = test::walk(200);
+    for (StampedPose& pose : walk) pose.T_world_body.translation().z() = 0.5;
+    return walk;
+  }
+};
+
+TEST_F(RoomEvaluationTest, JudgesTheRoomsAndFloorsOfTheGraph) {
+  const Truth truth = readTruth(folder_.file("sim"));
+  const std::vector<RunEvaluation> runs = evaluate(truth);
+  EXPECT_FALSE(runs[1].rooms || runs[1].floors);  // it has no graph.json
+  const nlohmann::json json = nlohmann::json::parse(evaluationJson(truth, runs)).at("runs");
+  const nlohmann::json& rooms = json.at(0).at("rooms");
+  EXPECT_EQ(rooms.at("found"), 2);
+  EXPECT_EQ(rooms.at("true_rooms"), 1);
+  EXPECT_EQ(rooms.at("precision"), 0.5);
+  EXPECT_EQ(rooms.at("recall"), 1.0);
+  EXPECT_NEAR(rooms.at("mean_iou").get<double>(), 0.75, 1e-3);
+  EXPECT_EQ(rooms.at("wrong"), nlohmann::json({1}));
+  EXPECT_EQ(rooms.at("matches").at(0).at("found"), 0);
+  const nlohmann::json& floors = json.at(0).at("floors");
+  EXPECT_EQ(floors.at("exact"), true);
+  EXPECT_EQ(floors.at("levels").at(0).at("id"), 2);
+  EXPECT_NEAR(floors.at("levels").at(0).at("height_error_m").get<double>(), 0.01, 1e-6);
+  EXPECT_TRUE(floors.at("between_error_m").is_null());
+  EXPECT_TRUE(json.at(1).at("rooms").is_null());
+  const std::string table = evaluationTable(truth, runs);
+  EXPECT_NE(table.find("rooms wrong 1\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("1 floors on 1 storeys, exact"), std::string::npos) << table;
+}
+
+TEST_F(RoomEvaluationTest, NamesAGraphWhoseRoomsAreTooLarge) {
+  const std::string json = folder_.read("baseline/graph.json");
+  const std::string path = folder_.write("baseline/graph.json", test::with(json, "9.0", "9e200"));
+  const Truth truth = readTruth(folder_.file("sim"));
+  const std::string message = messageOf<std::runtime_error>(
+      [&] { evaluateRun(truth, folder_.file("baseline"), kMaxDt_s); });
+  EXPECT_NE(message.find(path), std::string::npos) << message;
+}
+
 TEST_F(WallEvaluationTest, NamesAGraphThatItCannotRead) {
   const std::string path = folder_.write("baseline/graph.json", "{}");
   const Truth truth = readTruth(folder_.file("sim"));

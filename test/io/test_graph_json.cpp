@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include "mrpt_sgraphs/factors/condensed.h"
 #include "mrpt_sgraphs/factors/floor_rooms.h"
@@ -49,12 +52,18 @@ class GraphJsonTest : public ::testing::Test {
   void SetUp() override {
     graph_.setMapOdom(random_.pose());
     const FloorId floor{3};
-    graph_.restoreFloor(floor, random_.pose() * Plane{}, {random_.vector(50.0), "ground \"0\" ü"});
+    FloorAttributes ground;
+    ground.centre_map = random_.vector(50.0);
+    ground.name = "ground \"0\" ü";
+    ground.connections = {{FloorId{5}, random_.vector(50.0), random_.vector(50.0)}};
+    graph_.restoreFloor(floor, random_.pose() * Plane{}, ground);
+    graph_.restoreFloor(FloorId{5}, random_.pose() * Plane{}, {});
+    const auto triangle = [this] {
+      return Outline3{random_.vector(50.0), random_.vector(50.0), random_.vector(50.0)};
+    };
     for (const uint64_t id : {4U, 2U, 9U}) {
       WallAttributes attributes;
-      const auto triangle = [this] {
-        return Outline3{random_.vector(50.0), random_.vector(50.0), random_.vector(50.0)};
-      };
+      if (id == 4) attributes.floor = floor;
       attributes.extent_map = {triangle(), {triangle(), triangle()}};
       graph_.restoreWall(WallId{id}, test::randomPlane(&random_, 50.0), attributes);
     }
@@ -63,7 +72,11 @@ class GraphJsonTest : public ::testing::Test {
     room.walls = {WallId{4}, WallId{2}};
     room.floor = floor;
     room.size_m = {4.1, 1.0 / 3.0};
+    room.extent_map = {triangle(), {triangle()}};
+    room.height_m = 2.7;
+    room.doorways = {{RoomId{8}, random_.vector(50.0), 0.9}, {{}, random_.vector(50.0), 1.0 / 3.0}};
     graph_.restoreRoom(RoomId{7}, random_.pose(), room);
+    graph_.restoreRoom(RoomId{8}, random_.pose(), {});
     for (const uint64_t id : {0U, 1U, 6U}) {
       KeyframeAttributes attributes;
       attributes.stamp_s = 1.7e9 + 0.1 * static_cast<double>(id);
@@ -71,6 +84,7 @@ class GraphJsonTest : public ::testing::Test {
       attributes.marginalized = id == 1;
       if (id == 1) attributes.representative = KeyframeId{0};
       if (id != 6) attributes.room = RoomId{7};
+      if (id != 1) attributes.floor = floor;
       graph_.restoreKeyframe(KeyframeId{id}, random_.pose(), attributes);
     }
     addFactors();
@@ -189,8 +203,48 @@ TEST_F(GraphJsonTest, NodesKeepWhatIsKnownOfThem) {
   const auto& extent = graph_.attributes(WallId{9}).extent_map;
   EXPECT_EQ(again.attributes(WallId{9}).extent_map.outline, extent.outline);
   EXPECT_EQ(again.attributes(WallId{9}).extent_map.holes, extent.holes);
+  EXPECT_EQ(again.attributes(WallId{4}).floor, FloorId{3});
+  EXPECT_EQ(again.attributes(WallId{9}).floor, std::nullopt);
   const Json document = Json::parse(written(graph_));
   EXPECT_EQ(document["rooms"][0]["keyframes"], Json({0, 1}));
+  EXPECT_EQ(document["floors"][0]["keyframes"], Json({0, 6}));
+  EXPECT_EQ(document["floors"][0]["rooms"], Json({7}));
+}
+
+TEST_F(GraphJsonTest, RoomsAndFloorsKeepTheirShapesAndWays) {
+  const LayeredGraph again = read(written(graph_));
+  const RoomAttributes& before = graph_.attributes(RoomId{7});
+  const RoomAttributes& room = again.attributes(RoomId{7});
+  EXPECT_EQ(room.extent_map.outline, before.extent_map.outline);
+  EXPECT_EQ(room.extent_map.holes, before.extent_map.holes);
+  EXPECT_EQ(room.height_m, 2.7);
+  ASSERT_EQ(room.doorways.size(), 2u);
+  EXPECT_EQ(room.doorways[0].to, RoomId{8});
+  EXPECT_EQ(room.doorways[1].to, std::nullopt);
+  EXPECT_EQ(room.doorways[0].centre_map, before.doorways[0].centre_map);
+  EXPECT_EQ(room.doorways[0].width_m, 0.9);
+  const auto& ways = again.attributes(FloorId{3}).connections;
+  ASSERT_EQ(ways.size(), 1u);
+  EXPECT_EQ(ways[0].to, FloorId{5});
+  EXPECT_EQ(ways[0].here_map, graph_.attributes(FloorId{3}).connections[0].here_map);
+  EXPECT_EQ(ways[0].there_map, graph_.attributes(FloorId{3}).connections[0].there_map);
+}
+
+TEST_F(GraphJsonTest, AFileFromBeforeTheShapesOfRoomsIsRead) {
+  Json old = Json::parse(written(graph_));
+  for (Json& wall : old["walls"]) wall.erase("floor");
+  for (Json& room : old["rooms"]) {
+    for (const char* field : {"holes", "height", "doorways"}) room.erase(field);
+  }
+  for (Json& floor : old["floors"]) {
+    for (const char* field : {"connections", "rooms", "keyframes"}) floor.erase(field);
+  }
+  const LayeredGraph again = read(old.dump());
+  EXPECT_EQ(again.attributes(RoomId{7}).height_m, 0.0);
+  EXPECT_EQ(again.attributes(RoomId{7}).extent_map.outline,
+            graph_.attributes(RoomId{7}).extent_map.outline);
+  EXPECT_EQ(again.attributes(WallId{4}).floor, std::nullopt);
+  EXPECT_TRUE(again.attributes(FloorId{3}).connections.empty());
 }
 
 TEST_F(GraphJsonTest, DamageIsNamedWithItsPlace) {
@@ -226,16 +280,26 @@ TEST_F(GraphJsonTest, DamageIsNamedWithItsPlace) {
   expectComplaint("/rooms/0/kind", "hall", "rooms/0/kind is none of");
   expectComplaint("/rooms/0/walls/0", 70, "rooms/0 refers to wall 70");
   expectComplaint("/rooms/0/name", 7, "rooms/0/name is no text");
+  expectComplaint("/rooms/0/height", "x", "rooms/0/height is no number");
+  expectComplaint("/rooms/0/doorways/0/to", 70, "rooms/0 refers to room 70");
+  expectComplaint("/rooms/0/doorways/1/width", nullptr, "rooms/0/doorways/1/width is no number");
+  expectComplaint("/walls/0/floor", 70, "walls/0 refers to floor 70");
+  expectComplaint("/floors/0/connections/0/to", 70, "floors/0 refers to floor 70");
+  expectComplaint("/floors/0/connections/0/to", nullptr, "floors/0/connections/0/to is no id");
   expectComplaint("/walls/0", 7, "walls/0 is no object");
 }
 
 TEST_F(GraphJsonTest, EveryFieldThatIsMissingIsNamed) {
+  const std::set<std::pair<std::string, std::string>> kOptional{
+      {"factors", "kernel"},  {"walls", "holes"},        {"walls", "floor"},
+      {"rooms", "holes"},     {"rooms", "height"},       {"rooms", "doorways"},
+      {"rooms", "keyframes"}, {"floors", "connections"}, {"floors", "rooms"},
+      {"floors", "keyframes"}};
   const Json good = Json::parse(written(graph_));
   for (const char* list : {"keyframes", "walls", "rooms", "floors", "factors"}) {
     for (std::size_t k = 0; k < good[list].size(); ++k) {
       for (const auto& field : good[list][k].items()) {
-        const bool optional =
-            field.key() == "kernel" || (std::string(list) == "rooms" && field.key() == "keyframes");
+        const bool optional = kOptional.count({list, field.key()}) != 0;
         Json bad = good;
         bad[list][k].erase(field.key());
         const std::string expected = optional

@@ -20,9 +20,30 @@ struct TrueWall {
   std::optional<double> seen_m2;  ///< How much of it the sensor saw from near; none where not told.
 };
 
+/// A room as it was built, in the truth's frame.
+struct TrueRoom {
+  enum class Kind { kRoom, kCorridor, kStairwell };
+
+  uint64_t id = 0;
+  std::string name;
+  Kind kind = Kind::kRoom;
+  PlanarExtent extent;             ///< On the ground; corners in either order.
+  std::optional<double> height_m;  ///< Of the ceiling above it.
+  bool entered = true;             ///< By the robot; where it is not told, it was.
+};
+
+/// A storey, in the truth's frame.
+struct TrueFloor {
+  uint64_t id = 0;
+  double elevation_m = 0.0;
+};
+
 /// What a building.json says.
 struct TrueBuilding {
   std::vector<TrueWall> walls;
+  std::vector<TrueRoom> rooms;
+  bool all_rooms_listed = true;  ///< Else there are others, of which nothing is told.
+  std::vector<TrueFloor> floors;
   /// The walls with their doors and windows cut out, and every room's floor and ceiling. Furniture,
   /// pillars and stairs are not in that file: a map of them counts as error.
   std::vector<FlatSurface> surfaces;
@@ -30,5 +51,14 @@ struct TrueBuilding {
 
 /// @throws std::runtime_error naming the file and what is wrong with it.
 TrueBuilding readBuilding(const std::string& path);
+
+/// Takes rooms and floors of a building from a list of boxes instead:
+///
+///     [{"name": "21", "min": [x, y, z], "max": [x, y, z]}, ...]
+///
+/// All of them were entered. The list need not be complete; a room's id is its place in it. Boxes
+/// that stand at one height within 0.3 m are one floor.
+/// @throws std::runtime_error naming the file and what is wrong with it.
+void readRoomBoxes(const std::string& path, TrueBuilding* building);
 
 }  // namespace mrpt_sgraphs

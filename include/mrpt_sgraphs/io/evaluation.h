@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "mrpt_sgraphs/io/building_file.h"
+#include "mrpt_sgraphs/io/floor_error.h"
 #include "mrpt_sgraphs/io/map_error.h"
 #include "mrpt_sgraphs/io/optimization_times.h"
+#include "mrpt_sgraphs/io/room_error.h"
 #include "mrpt_sgraphs/io/surface_residuals.h"
 #include "mrpt_sgraphs/io/trajectory_error.h"
 #include "mrpt_sgraphs/io/tum.h"
@@ -33,7 +35,9 @@ struct RunEvaluation {
   TrajectoryErrors trajectory;
   std::optional<TrajectoryErrors> odometry;
   std::optional<MapError> map;
-  std::optional<WallErrors> walls;  ///< If the truth says to which side its walls look.
+  std::optional<WallErrors> walls;    ///< If the truth says to which side its walls look.
+  std::optional<RoomErrors> rooms;    ///< If the truth knows of any.
+  std::optional<FloorErrors> floors;  ///< If the truth knows of any.
   std::optional<SurfaceResiduals> surface_residuals;
   std::optional<OptimizationTimes> optimizations;
 };

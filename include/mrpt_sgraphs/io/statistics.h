@@ -17,4 +17,7 @@ double mean(const std::vector<double>& values);
 /// The root of the mean square; NaN if there is none.
 double rootMeanSquare(const std::vector<double>& values);
 
+/// A share of a number; NaN of nothing.
+double ratio(std::size_t part, std::size_t whole);
+
 }  // namespace mrpt_sgraphs
