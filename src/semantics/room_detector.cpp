@@ -3,14 +3,73 @@
 
 #include "mrpt_sgraphs/semantics/room_detector.h"
 
+#include <algorithm>
+#include <map>
+
+#include "storey_rooms.h"
+
 namespace mrpt_sgraphs {
+namespace {
 
-struct RoomDetector::State {};
+/// z is up and zero on the ground.
+Pose floorFrame(const Plane& ground_map) {
+  const PlaneFrame frame(ground_map, Eigen::Vector3d::Zero());
+  Pose T_floor_map = Pose::Identity();
+  T_floor_map.linear() = frame.rotation();
+  T_floor_map.translation() = -(frame.rotation() * frame.origin);
+  return T_floor_map;
+}
 
-RoomDetector::RoomDetector(const RoomDetectorConfig&) : state_(std::make_unique<State>()) {}
+}  // namespace
+
+struct RoomDetector::State {
+  struct Storey {
+    Storey(const RoomDetectorConfig& config, FloorId floor) : rooms(config, floor) {}
+
+    StoreyRooms rooms;
+    std::vector<DetectedRoom> detected;
+  };
+
+  explicit State(const RoomDetectorConfig& config) : config(config) {}
+
+  RoomDetectorConfig config;
+  std::map<FloorId, Storey> storeys;
+};
+
+RoomDetector::RoomDetector(const RoomDetectorConfig& config)
+    : state_(std::make_unique<State>(config)) {}
 
 RoomDetector::~RoomDetector() = default;
 
-RoomDetection RoomDetector::detect(const GraphSnapshot& graph) { return {graph.stamp_s, {}}; }
+RoomDetection RoomDetector::detect(const GraphSnapshot& graph) {
+  RoomDetection detection;
+  detection.stamp_s = graph.stamp_s;
+  std::map<FloorId, std::vector<const KeyframeNode*>> keyframes;
+  std::vector<const KeyframeNode*> passing;
+  for (const KeyframeNode& keyframe : graph.keyframes) {
+    if (keyframe.floor) {
+      keyframes[*keyframe.floor].push_back(&keyframe);
+    } else {
+      passing.push_back(&keyframe);
+    }
+  }
+  for (const FloorNode& floor : graph.floors) {
+    const auto storey = state_->storeys.try_emplace(floor.id, state_->config, floor.id).first;
+    const Pose T_floor_map = floorFrame(floor.ground_map);
+    const auto& on_floor = keyframes[floor.id];
+    if (storey->second.rooms.integrate(on_floor, T_floor_map)) {
+      storey->second.detected =
+          storey->second.rooms.detect(on_floor, passing, graph.walls, T_floor_map);
+    }
+    const std::size_t before = detection.rooms.size();
+    for (DetectedRoom room : storey->second.detected) {
+      for (DetectedDoorway& doorway : room.doorways) {
+        if (doorway.to) *doorway.to += before;
+      }
+      detection.rooms.push_back(std::move(room));
+    }
+  }
+  return detection;
+}
 
 }  // namespace mrpt_sgraphs

@@ -60,7 +60,7 @@ struct RoomAttributes {
   Eigen::Vector2d size_m{0.0, 0.0};  ///< Along the room's x and y, where it is rectangular.
   std::string name;
   PlanarExtent extent_map;  ///< On the ground, counter-clockwise as seen from above.
-  double height_m = 0.0;    ///< From the ground to the ceiling; 0: it was not seen.
+  double height_m = 0.0;    ///< Above the ground: where its walls were seen highest; 0: none.
   std::vector<Doorway> doorways;
 };
 

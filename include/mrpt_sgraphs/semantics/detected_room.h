@@ -35,7 +35,7 @@ struct DetectedRoom {
   std::optional<FloorId> floor;
   Eigen::Vector2d size_m{0.0, 0.0};  ///< Along the room's x and y: of the box around the outline.
   PlanarExtent extent_anchor;        ///< On the ground, counter-clockwise as seen from above.
-  double height_m = 0.0;             ///< From the ground to the ceiling; 0: it was not seen.
+  double height_m = 0.0;             ///< Above the ground: where its walls were seen highest.
   std::vector<BoundingWall> walls;
   std::vector<KeyframeId> keyframes;  ///< Inside of it, in their order; at least one.
   std::vector<DetectedDoorway> doorways;

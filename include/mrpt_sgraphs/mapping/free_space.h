@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <octomap/OcTree.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "mrpt_sgraphs/geometry/cell_grid.h"
+#include "mrpt_sgraphs/geometry/point_cloud.h"
+#include "mrpt_sgraphs/geometry/pose.h"
+#include "mrpt_sgraphs/mapping/free_space_config.h"
+
+namespace mrpt_sgraphs {
+
+/// What the rays of a storey's keyframes have crossed and hit: an OctoMap of the slab above its
+/// ground, and its view from above.
+///
+/// A ray tells of each voxel of the slab that it was free or, at its end, occupied, once a cloud. A
+/// hit weighs as much as three misses. Evidence is summed in multiples of 1/64, exactly, so what
+/// was added can be taken out again: a keyframe that has moved is removed where it was and added
+/// where it is.
+///
+/// Frame: `floor`, z up and zero on the storey's ground.
+class FreeSpace {
+ public:
+  enum class Space : uint8_t { kUnknown, kFree, kOccupied };
+
+  explicit FreeSpace(const FreeSpaceConfig& config);
+
+  void add(const Cloud& cloud_base, const Pose& T_floor_base) {
+    count(cloud_base, T_floor_base, 1.0F);
+  }
+
+  /// What was added with the same values before.
+  void remove(const Cloud& cloud_base, const Pose& T_floor_base) {
+    count(cloud_base, T_floor_base, -1.0F);
+  }
+
+  /// A column of the slab: occupied where a wall or tall furniture stands in it; a table alone does
+  /// not.
+  Space at(Cell cell) const;
+  /// Around all that is known.
+  const CellBox& box() const { return known_; }
+  double cell_m() const { return config_.cell_m; }
+
+  /// The voxels of the slab: unknown again where the log-odds are zero; inner nodes are not up to
+  /// date.
+  const octomap::OcTree& tree() const { return tree_; }
+
+ private:
+  struct Column {
+    int16_t free = 0;  ///< Voxels.
+    int16_t occupied = 0;
+  };
+  enum class Mark : uint8_t { kNone, kCrossed, kHit };
+
+  void count(const Cloud& cloud_base, const Pose& T_floor_base, float sign);
+  void mark(const Eigen::Vector3f& sensor, const Eigen::Vector3f& point, bool is_hit);
+  void weigh(const octomap::OcTreeKey& key, float delta);
+
+  FreeSpaceConfig config_;
+  octomap::OcTree tree_;
+  CellGrid<Column> columns_;
+  CellBox known_;
+  int bottom_ = 0;  ///< The lowest layer of voxels in the slab.
+  int layers_ = 0;
+
+  /// Of the cloud that is being added, around the sensor.
+  CellBox window_;
+  std::vector<Mark> marks_;
+};
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "storey_rooms.h"
+
+#include <algorithm>
+#include <set>
+
+#include "mrpt_sgraphs/geometry/cell_outline.h"
+#include "region_map.h"
+#include "room_outline.h"
+#include "room_shape.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+/// Whether what a keyframe has seen lies in other cells than before.
+bool hasMoved(const Pose& from, const Pose& to, double cell_m) {
+  constexpr double kLever_m = 5.0;  // most of what it sees is nearer
+  const Tangent way = local(from, to);
+  return way.head<3>().norm() + kLever_m * way.tail<3>().norm() > 0.5 * cell_m;
+}
+
+Eigen::Vector2d placeOf(const KeyframeNode& keyframe, const Pose& T_floor_map) {
+  return (T_floor_map * keyframe.T_map_base.translation()).head<2>();
+}
+
+std::size_t countInside(const std::vector<const KeyframeNode*>& keyframes, const FlatExtent& extent,
+                        const Pose& T_floor_map) {
+  return static_cast<std::size_t>(
+      std::count_if(keyframes.begin(), keyframes.end(), [&](const KeyframeNode* keyframe) {
+        return contains(extent, placeOf(*keyframe, T_floor_map));
+      }));
+}
+
+/// Numbers of the regions that keyframes stand in.
+std::set<int> enteredRegions(const RegionMap& map,
+                             const std::vector<const KeyframeNode*>& keyframes,
+                             const Pose& T_floor_map) {
+  std::set<int> regions;
+  for (const KeyframeNode* keyframe : keyframes) {
+    const int region = map.regionAt(placeOf(*keyframe, T_floor_map));
+    if (region != RegionMap::kNone) regions.insert(region);
+  }
+  return regions;
+}
+
+Pose poseOf(const RoomShape& shape) {
+  Pose T_floor_room = Pose::Identity();
+  T_floor_room.linear() =
+      Eigen::AngleAxisd(shape.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  T_floor_room.translation().head<2>() = shape.centre;
+  return T_floor_room;
+}
+
+Outline3 raised(const Outline2& outline) {
+  Outline3 ring;
+  for (const Eigen::Vector2d& corner : outline) ring.emplace_back(corner.x(), corner.y(), 0.0);
+  return ring;
+}
+
+PlanarExtent raised(const FlatExtent& extent) {
+  PlanarExtent result{raised(extent.outline), {}};
+  for (const Outline2& hole : extent.holes) result.holes.push_back(raised(hole));
+  return result;
+}
+
+/// Openings that are ways: a door in a thick wall once, in the middle of it.
+std::vector<RegionMap::Opening> doorwaysOf(const RegionMap& map) {
+  constexpr double kNarrowest_m = 0.45;  // less is a gap in the data, not a way
+  constexpr double kSamePlace_m = 0.8;
+  std::vector<RegionMap::Opening> doorways;
+  for (RegionMap::Opening opening : map.openings) {
+    if (opening.width_m < kNarrowest_m) continue;
+    if (opening.front > opening.back) std::swap(opening.front, opening.back);
+    const auto same = std::find_if(doorways.begin(), doorways.end(), [&](const auto& other) {
+      return other.front == opening.front && other.back == opening.back &&
+             (other.centre - opening.centre).norm() < kSamePlace_m;
+    });
+    if (same == doorways.end()) {
+      doorways.push_back(opening);
+    } else {
+      same->centre = 0.5 * (same->centre + opening.centre);
+      same->width_m = std::min(same->width_m, opening.width_m);
+    }
+  }
+  return doorways;
+}
+
+}  // namespace
+
+bool StoreyRooms::integrate(const std::vector<const KeyframeNode*>& keyframes,
+                            const Pose& T_floor_map) {
+  bool changed = false;
+  std::set<KeyframeId> present;
+  for (const KeyframeNode* keyframe : keyframes) {
+    present.insert(keyframe->id);
+    if (keyframe->cloud == nullptr) continue;
+    const Pose T_floor_base = T_floor_map * keyframe->T_map_base;
+    const auto known = integrated_.find(keyframe->id);
+    if (known != integrated_.end()) {
+      if (!hasMoved(known->second.T_floor_base, T_floor_base, space_.cell_m())) continue;
+      space_.remove(*known->second.cloud, known->second.T_floor_base);
+    }
+    space_.add(*keyframe->cloud, T_floor_base);
+    integrated_[keyframe->id] = {T_floor_base, keyframe->cloud};
+    changed = true;
+  }
+  for (auto entry = integrated_.begin(); entry != integrated_.end();) {
+    if (present.count(entry->first) > 0) {
+      ++entry;
+      continue;
+    }
+    space_.remove(*entry->second.cloud, entry->second.T_floor_base);
+    entry = integrated_.erase(entry);
+    changed = true;
+  }
+  return changed;
+}
+
+std::vector<DetectedRoom> StoreyRooms::detect(const std::vector<const KeyframeNode*>& keyframes,
+                                              const std::vector<const KeyframeNode*>& passing,
+                                              const SharedVector<WallNode>& walls,
+                                              const Pose& T_floor_map) const {
+  const FreeSpaceConfig& slab = config_.free_space;
+  const std::vector<WallLine> lines =
+      wallLinesOf(walls, floor_, T_floor_map, {slab.min_height_m, slab.max_height_m});
+  const std::vector<WallLine> barriers =
+      barriersOf(lines, config_.max_door_m, config_.max_passage_m);
+  const RegionMap map = regionsOf(space_, barriers, config_.max_passage_m);
+
+  struct Found {
+    int region;
+    DetectedRoom room;
+    Pose T_anchor_floor;
+  };
+  std::vector<Found> found;
+  for (const int region : enteredRegions(map, keyframes, T_floor_map)) {
+    const RoomOutline outline = roomOutlineOf(map, region, space_, lines, barriers);
+    if (outline.extent.outline.empty() || areaOf(outline.extent) < config_.min_area_m2) continue;
+    if (outline.bounded_m < config_.min_bounded * outline.length_m) continue;
+    DetectedRoom room;
+    for (const KeyframeNode* keyframe : keyframes) {
+      if (contains(outline.extent, placeOf(*keyframe, T_floor_map))) {
+        room.keyframes.push_back(keyframe->id);
+      }
+    }
+    if (room.keyframes.size() <= countInside(passing, outline.extent, T_floor_map)) continue;
+
+    room.anchor = room.keyframes.front();
+    const auto anchor = std::find_if(keyframes.begin(), keyframes.end(),
+                                     [&](const KeyframeNode* k) { return k->id == room.anchor; });
+    const Pose T_anchor_floor = (T_floor_map * (*anchor)->T_map_base).inverse();
+    const RoomShape shape = shapeOf(outline.extent);
+    room.T_anchor_room = T_anchor_floor * poseOf(shape);
+    room.kind = shape.kind;
+    room.floor = floor_;
+    room.size_m = shape.size_m;
+    room.extent_anchor = T_anchor_floor * raised(outline.extent);
+    for (const WallLine& line : lines) {
+      if (std::find(outline.walls.begin(), outline.walls.end(), line.id) != outline.walls.end()) {
+        room.walls.push_back({line.id, axisOf(line, shape)});
+        room.height_m = std::max(room.height_m, line.top_m);
+      }
+    }
+    found.push_back({region, std::move(room), T_anchor_floor});
+  }
+
+  const auto indexOf = [&found](int region) -> std::optional<std::size_t> {
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      if (found[k].region == region) return k;
+    }
+    return std::nullopt;
+  };
+  for (const RegionMap::Opening& doorway : doorwaysOf(map)) {
+    const auto a = indexOf(doorway.front);
+    const auto b = indexOf(doorway.back);
+    for (const auto& [from, to] : {std::make_pair(a, b), std::make_pair(b, a)}) {
+      if (!from) continue;
+      const Eigen::Vector3d centre(doorway.centre.x(), doorway.centre.y(), 0.0);
+      found[*from].room.doorways.push_back(
+          {to, found[*from].T_anchor_floor * centre, doorway.width_m});
+    }
+  }
+  std::vector<DetectedRoom> result;
+  for (Found& each : found) result.push_back(std::move(each.room));
+  return result;
+}
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "mrpt_sgraphs/graph/snapshot.h"
+#include "mrpt_sgraphs/mapping/free_space.h"
+#include "mrpt_sgraphs/semantics/detected_room.h"
+#include "mrpt_sgraphs/semantics/room_detector_config.h"
+
+namespace mrpt_sgraphs {
+
+/// The rooms of one storey.
+class StoreyRooms {
+ public:
+  StoreyRooms(const RoomDetectorConfig& config, std::optional<FloorId> floor)
+      : config_(config), floor_(floor), space_(config.free_space) {}
+
+  /// Takes into the free space what is new or has moved.
+  /// @param T_floor_map  z is up, and zero on the ground.
+  /// @return Whether anything was, or had.
+  bool integrate(const std::vector<const KeyframeNode*>& keyframes, const Pose& T_floor_map);
+
+  /// @param passing  Keyframes on stairs and ramps: a region with more of them than of the storey's
+  ///                 own is no room.
+  std::vector<DetectedRoom> detect(const std::vector<const KeyframeNode*>& keyframes,
+                                   const std::vector<const KeyframeNode*>& passing,
+                                   const SharedVector<WallNode>& walls,
+                                   const Pose& T_floor_map) const;
+
+  const FreeSpace& space() const { return space_; }
+
+ private:
+  struct Integrated {
+    Pose T_floor_base;
+    Cloud::ConstPtr cloud;
+  };
+
+  RoomDetectorConfig config_;
+  std::optional<FloorId> floor_;
+  FreeSpace space_;
+  std::map<KeyframeId, Integrated> integrated_;
+};
+
+}  // namespace mrpt_sgraphs
