@@ -163,12 +163,7 @@ TrackNumber WallLayer::merge(TrackNumber a, TrackNumber b, LayeredGraph* graph) 
     sighting.factor.reset();
     if (stays.id) addObservation(*stays.id, config_.kernel_chi2, &sighting, graph);
   }
-  std::vector<SurfaceSighting> all;
-  std::merge(
-      stays.sightings.begin(), stays.sightings.end(), goes.sightings.begin(), goes.sightings.end(),
-      std::back_inserter(all),
-      [](const SurfaceSighting& x, const SurfaceSighting& y) { return x.keyframe < y.keyframe; });
-  stays.sightings = std::move(all);
+  stays.sightings = mergedByKeyframe(stays.sightings, goes.sightings);
   stays.seen_at_m = std::max(stays.seen_at_m, goes.seen_at_m);
   stays.see_through.add(goes.see_through);
   stays.is_furniture = stays.is_furniture && goes.is_furniture;
