@@ -88,6 +88,7 @@ std::optional<TrackNumber> WallLayer::partnerOf(TrackNumber number, const Gate& 
   const WallTrack& track = tracks_.at(number);
   std::vector<Match> matches;
   for (const auto& [other, candidate] : tracks_) {
+    if (areApart(track.floor, candidate.floor)) continue;
     if (other == number || track.apart.count(other) + candidate.apart.count(number) != 0) continue;
     const std::optional<SurfaceFit> fit = mergeFit(track, candidate, gate, graph);
     if (fit) matches.push_back({*fit, 0, other});
