@@ -3,27 +3,9 @@
 
 #include "mrpt_sgraphs/frontend/wall_track.h"
 
-#include <algorithm>
-#include <map>
-
 #include "mrpt_sgraphs/factors/wall_pair.h"
 
 namespace mrpt_sgraphs {
-
-void updateFloor(const LayeredGraph& graph, WallTrack* track) {
-  std::map<FloorId, int> counts;
-  for (const SurfaceSighting& sighting : track->sightings) {
-    if (const std::optional<FloorId>& floor = floorOf(sighting, graph)) ++counts[*floor];
-  }
-  const auto most =
-      std::max_element(counts.begin(), counts.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
-  std::optional<FloorId> floor;
-  if (most != counts.end()) floor = most->first;
-  if (track->floor != floor) track->grown = true;  // what was apart from it may be one with it now
-  track->floor = floor;
-  track->is_on_more = counts.size() > 1;
-}
 
 void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track) {
   if (track->sightings.empty()) return;  // nothing is left to draw it from

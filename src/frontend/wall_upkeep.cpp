@@ -36,6 +36,7 @@ bool WallLayer::maintain(const Gate& gate, LayeredGraph* graph) {
   if (mergeTracks(gate, graph)) changed = true;
   if (promote(graph)) changed = true;
   if (updatePairs(graph)) changed = true;
+  cutAtGrounds(*graph);
   updateOutlines(graph);
   for (auto& [number, track] : tracks_) track.grown = false;
   erasures_ = graph->erasures();
@@ -182,8 +183,12 @@ TrackNumber WallLayer::merge(TrackNumber a, TrackNumber b, LayeredGraph* graph) 
 void WallLayer::updateOutlines(LayeredGraph* graph) {
   for (auto& [number, track] : tracks_) {
     if (!track.id) continue;
-    if (!track.outline_map) track.outline_map = track.extent.outline_map(config_.max_gap_m);
+    if (!track.outline_map) {
+      const WallExtent own = track.extent.between(track.cut.bottom_m, track.cut.top_m);
+      track.outline_map = (own.empty() ? track.extent : own).outline_map(config_.max_gap_m);
+    }
     WallAttributes attributes = graph->attributes(*track.id);
+    if (track.floor) attributes.floor = track.floor;  // else, what its place tells
     attributes.extent_map = dropped(*track.outline_map, graph->plane(*track.id));
     graph->setAttributes(*track.id, attributes);
   }

@@ -264,7 +264,9 @@ FloorDetection Detection::result() {
                         graph_.floors[on_[k]].ground_map, places[on_[k]]});
   }
   for (const WallNode& wall : graph_.walls) {
-    const std::optional<std::size_t> floor = floorOfWall(wall, standing);
+    const std::size_t known = wall.floor ? levelOf(*wall.floor) : kNone;
+    const std::optional<std::size_t> floor =
+        known != kNone ? places[same_[known]] : floorOfWall(wall, standing);
     if (floor) detection_.floors[*floor].walls.push_back(wall.id);
   }
   return std::move(detection_);

@@ -119,7 +119,9 @@ bool updateFloors(const FloorDetection& detection, GroundLayer* ground, LayeredG
   for (const DetectedFloor& floor : detection.floors) {
     if (!graph->contains(floor.id)) continue;
     for (const WallId wall : floor.walls) {
-      if (graph->contains(wall)) setFloor(wall, floor.id, graph);
+      // those that keyframes of a level see are told by them, and know it better
+      const bool is_new = graph->contains(wall) && !graph->attributes(wall).floor;
+      if (is_new) setFloor(wall, floor.id, graph);
     }
     std::vector<KeyframeId> keyframes;
     for (const KeyframeId id : floor.keyframes) {

@@ -111,6 +111,10 @@ class WallLayer {
   std::optional<SurfaceFit> mergeFit(const WallTrack& a, const WallTrack& b, const Gate& gate,
                                      const LayeredGraph& graph) const;
   TrackNumber merge(TrackNumber a, TrackNumber b, LayeredGraph* graph);
+  /// Where walls of two storeys are seen to be one surface up a stairwell, each ends at the ground
+  /// of the upper one.
+  void cutAtGrounds(const LayeredGraph& graph);
+  bool goOnInEachOther(const WallTrack& a, const WallTrack& b, const LayeredGraph& graph) const;
   void updateOutlines(LayeredGraph* graph);
 
   bool updatePairs(LayeredGraph* graph);

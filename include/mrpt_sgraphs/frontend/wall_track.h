@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <optional>
 #include <set>
 #include <vector>
@@ -17,6 +18,12 @@ namespace mrpt_sgraphs {
 /// The number of a track: in the order in which they began.
 using TrackNumber = uint64_t;
 
+/// Where the wall of one storey ends and that of another goes on [m].
+struct StoreyCut {
+  double bottom_m = -std::numeric_limits<double>::infinity();
+  double top_m = std::numeric_limits<double>::infinity();
+};
+
 /// One side of a wall, from its first sighting on: on probation, then a node of the graph.
 struct WallTrack : SurfaceTrack {
   std::optional<WallId> id;  ///< None on probation.
@@ -27,6 +34,7 @@ struct WallTrack : SurfaceTrack {
   bool is_furniture = false;    ///< Was seen over, or past its ends: never a wall.
   std::optional<FloorId> floor;  ///< Most keyframes that see it are on; none: no level is known.
   bool is_on_more = false;       ///< Keyframes of other levels see it too.
+  StoreyCut cut;                 ///< Of the outline, not of the extent.
   bool grown = true;            ///< Since it was last compared with the others.
   std::optional<PlanarExtent> outline_map;  ///< Of the extent, on its grid; none after a change.
   std::set<TrackNumber> apart;              ///< What was split from it: not to be merged again.
