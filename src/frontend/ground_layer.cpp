@@ -3,6 +3,7 @@
 
 #include "mrpt_sgraphs/frontend/ground_layer.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -96,7 +97,7 @@ bool GroundLayer::associate(const WayToNewest& way, LayeredGraph* graph) {
     addSighting(sighting, *graph, level);
   }
   level->seen_at_m = way.way_m();
-  if (!level->id && keyframesOf(level->sightings) >= config_.min_sightings) {
+  if (!level->id && isWideEnough(*level, *graph)) {
     level->id = graph->addFloor(level->plane_map, {});
     for (SurfaceSighting& other : level->sightings) addFactor(&other, *level->id, graph);
   }
@@ -109,6 +110,36 @@ bool GroundLayer::associate(const WayToNewest& way, LayeredGraph* graph) {
                                }),
                 levels_.end());
   return changed;
+}
+
+bool GroundLayer::isWideEnough(const Level& level, const LayeredGraph& graph) const {
+  if (keyframesOf(level.sightings) < config_.min_sightings) return false;
+  if (graph.size(Layer::kFloor) == 0) return true;  // the robot has come by no stairs
+  Eigen::AlignedBox3d box_map;
+  for (const SurfaceSighting& sighting : level.sightings) {
+    box_map.extend(graph.pose(sighting.keyframe).translation());
+  }
+  return box_map.diagonal().norm() >= config_.min_spread_m;
+}
+
+bool GroundLayer::merge(FloorId stays, FloorId goes, LayeredGraph* graph) {
+  refreshPlanes(*graph);
+  const auto levelWith = [this](FloorId id) {
+    return std::find_if(levels_.begin(), levels_.end(),
+                        [id](const Level& level) { return level.id == id; });
+  };
+  const auto level = levelWith(stays);
+  const auto other = levelWith(goes);
+  if (level == levels_.end() || other == levels_.end() || stays == goes) return false;
+  graph->eraseNode(goes);
+  for (SurfaceSighting& sighting : other->sightings) addFactor(&sighting, stays, graph);
+  level->sightings = mergedByKeyframe(level->sightings, other->sightings);
+  level->seen_at_m = std::max(level->seen_at_m, other->seen_at_m);
+  refit(*graph, &*level);
+  graph->setPlane(stays, level->plane_map);
+  updateFloor(*level, graph);
+  levels_.erase(other);
+  return true;
 }
 
 void GroundLayer::refreshPlanes(const LayeredGraph& graph) {

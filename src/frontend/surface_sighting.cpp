@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 namespace mrpt_sgraphs {
@@ -17,6 +18,15 @@ int keyframesOf(const std::vector<SurfaceSighting>& sightings) {
     if (k == 0 || sightings[k].keyframe != sightings[k - 1].keyframe) ++count;
   }
   return count;
+}
+
+std::vector<SurfaceSighting> mergedByKeyframe(const std::vector<SurfaceSighting>& a,
+                                              const std::vector<SurfaceSighting>& b) {
+  std::vector<SurfaceSighting> all;
+  std::merge(
+      a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all),
+      [](const SurfaceSighting& x, const SurfaceSighting& y) { return x.keyframe < y.keyframe; });
+  return all;
 }
 
 void dropErased(const LayeredGraph& graph, std::vector<SurfaceSighting>* sightings) {

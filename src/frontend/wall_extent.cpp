@@ -92,6 +92,16 @@ std::vector<WallExtent> WallExtent::pieces(double max_gap_m) const {
   return result;
 }
 
+WallExtent WallExtent::between(double bottom_m, double top_m) const {
+  WallExtent result = *this;
+  cells_.forEach([&](Cell cell) {
+    const Eigen::Vector2d centre((cell.column + 0.5) * cell_m_, (cell.row + 0.5) * cell_m_);
+    const double z = frame_.lifted(centre).z();
+    if (z < bottom_m || z > top_m) result.cells_.remove(cell);
+  });
+  return result;
+}
+
 PlanarExtent WallExtent::outline_map(double max_gap_m) const {
   CellOutlineConfig config;
   config.cell_m = cell_m_;

@@ -82,6 +82,7 @@ std::vector<WallLayer::Match> WallLayer::matchesOf(const WayToNewest& way,
   for (std::size_t k = 0; k < planes.size(); ++k) {
     if (!isWallLike(planes[k], T_map_base)) continue;
     for (const auto& [number, track] : tracks_) {
+      if (areApart(graph.attributes(way.newest()).floor, track.floor)) continue;
       const std::optional<SurfaceFit> fit = fitTo(track, planes[k], way, graph);
       if (fit) matches.push_back({*fit, k, number});
     }
@@ -183,6 +184,7 @@ void WallLayer::forgetUnseen(double way_m) {
 
 void WallLayer::refreshPlanes(const LayeredGraph& graph) {
   for (auto& [number, track] : tracks_) {
+    updateFloor(graph, &track);
     if (track.id) {
       track.plane_map = graph.plane(*track.id);
     } else {

@@ -98,7 +98,7 @@ void WallLayer::release(LayeredGraph* graph) {
 bool WallLayer::splitTracks(LayeredGraph* graph) {
   std::vector<TrackNumber> grown;
   for (const auto& [number, track] : tracks_) {
-    if (track.grown) grown.push_back(number);
+    if (track.grown || track.is_on_more) grown.push_back(number);
   }
   bool changed = false;
   for (const TrackNumber number : grown) {
@@ -114,6 +114,13 @@ std::vector<SurfaceSighting> WallLayer::strangersIn(const WallTrack& track,
                                                     const LayeredGraph& graph) const {
   const std::vector<SurfaceSighting>& all = track.sightings;
   if (all.size() < 2) return {};
+  if (track.is_on_more) {  // a wall of each storey, however well they line up
+    std::vector<bool> on_other;
+    for (const SurfaceSighting& sighting : all) {
+      on_other.push_back(areApart(floorOf(sighting, graph), track.floor));
+    }
+    return those(all, on_other, true);
+  }
 
   std::vector<WallExtent> pieces;  // as they were, where the outline is
   if (!track.outline_map) pieces = track.extent.pieces(config_.max_gap_m);

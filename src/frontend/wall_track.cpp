@@ -17,6 +17,7 @@ void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track) {
   }
   track->box_map = track->extent.box_map();
   track->outline_map.reset();
+  updateFloor(graph, track);
   track->grown = true;
 }
 

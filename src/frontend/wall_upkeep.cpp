@@ -36,6 +36,7 @@ bool WallLayer::maintain(const Gate& gate, LayeredGraph* graph) {
   if (mergeTracks(gate, graph)) changed = true;
   if (promote(graph)) changed = true;
   if (updatePairs(graph)) changed = true;
+  cutAtGrounds(*graph);
   updateOutlines(graph);
   for (auto& [number, track] : tracks_) track.grown = false;
   erasures_ = graph->erasures();
@@ -88,6 +89,7 @@ std::optional<TrackNumber> WallLayer::partnerOf(TrackNumber number, const Gate& 
   const WallTrack& track = tracks_.at(number);
   std::vector<Match> matches;
   for (const auto& [other, candidate] : tracks_) {
+    if (areApart(track.floor, candidate.floor)) continue;
     if (other == number || track.apart.count(other) + candidate.apart.count(number) != 0) continue;
     const std::optional<SurfaceFit> fit = mergeFit(track, candidate, gate, graph);
     if (fit) matches.push_back({*fit, 0, other});
@@ -163,12 +165,7 @@ TrackNumber WallLayer::merge(TrackNumber a, TrackNumber b, LayeredGraph* graph) 
     sighting.factor.reset();
     if (stays.id) addObservation(*stays.id, config_.kernel_chi2, &sighting, graph);
   }
-  std::vector<SurfaceSighting> all;
-  std::merge(
-      stays.sightings.begin(), stays.sightings.end(), goes.sightings.begin(), goes.sightings.end(),
-      std::back_inserter(all),
-      [](const SurfaceSighting& x, const SurfaceSighting& y) { return x.keyframe < y.keyframe; });
-  stays.sightings = std::move(all);
+  stays.sightings = mergedByKeyframe(stays.sightings, goes.sightings);
   stays.seen_at_m = std::max(stays.seen_at_m, goes.seen_at_m);
   stays.see_through.add(goes.see_through);
   stays.is_furniture = stays.is_furniture && goes.is_furniture;
@@ -186,8 +183,12 @@ TrackNumber WallLayer::merge(TrackNumber a, TrackNumber b, LayeredGraph* graph) 
 void WallLayer::updateOutlines(LayeredGraph* graph) {
   for (auto& [number, track] : tracks_) {
     if (!track.id) continue;
-    if (!track.outline_map) track.outline_map = track.extent.outline_map(config_.max_gap_m);
+    if (!track.outline_map) {
+      const WallExtent own = track.extent.between(track.cut.bottom_m, track.cut.top_m);
+      track.outline_map = (own.empty() ? track.extent : own).outline_map(config_.max_gap_m);
+    }
     WallAttributes attributes = graph->attributes(*track.id);
+    if (track.floor) attributes.floor = track.floor;  // else, what its place tells
     attributes.extent_map = dropped(*track.outline_map, graph->plane(*track.id));
     graph->setAttributes(*track.id, attributes);
   }

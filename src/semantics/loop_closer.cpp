@@ -14,6 +14,7 @@ namespace mrpt_sgraphs {
 namespace {
 
 constexpr double kRadiusSigmas = 3.0;
+constexpr double kClimbSigmas = 3.0;
 /// Covariances that are added up know nothing of systematic errors: gates are opened by this factor.
 constexpr double kGateInflation = 4.0;
 constexpr double kRegistrationVoxel_m = 0.2;
@@ -27,6 +28,36 @@ Eigen::Matrix3d levelRotation(const KeyframeNode& keyframe) {
   const double yaw = std::atan2(R(1, 0), R(0, 0));
   return Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix() * R;
 }
+
+/// The grounds of the levels, for what the newest keyframe has seen before.
+class Levels {
+ public:
+  Levels(const GraphSnapshot& graph, double max_step_m) : graph_(graph), max_step_m_(max_step_m) {}
+
+  /// Two nodes may be one level that drift has torn apart, or wings with a step between them: a
+  /// loop within one of those is none between storeys.
+  bool areTwoStoreys(const KeyframeNode& a, const KeyframeNode& b) const {
+    if (!a.floor || !b.floor || *a.floor == *b.floor) return false;
+    const FloorNode* one = find(*a.floor);
+    const FloorNode* other = find(*b.floor);
+    if (one == nullptr || other == nullptr) return true;
+    const Eigen::Vector3d place = b.T_map_base.translation();
+    const double step_m = (one->ground_map.normal.dot(place) - one->ground_map.distance) -
+                          (other->ground_map.normal.dot(place) - other->ground_map.distance);
+    return std::abs(step_m) > max_step_m_;
+  }
+
+ private:
+  const FloorNode* find(FloorId id) const {
+    for (const FloorNode& floor : graph_.floors) {
+      if (floor.id == id) return &floor;
+    }
+    return nullptr;
+  }
+
+  const GraphSnapshot& graph_;
+  double max_step_m_;
+};
 
 std::vector<ScanPoint> pointsOf(const Cloud& cloud) {
   const std::vector<int> kept = firstInVoxels(cloud, kRegistrationVoxel_m);
@@ -60,10 +91,13 @@ void LoopCloser::describe(const Keyframes& keyframes) {
 }
 
 std::vector<LoopCloser::Candidate> LoopCloser::candidates(
-    const Keyframes& keyframes, const std::vector<Matrix6>& uncertainty) const {
+    const GraphSnapshot& graph, const std::vector<Matrix6>& uncertainty) const {
+  const Keyframes& keyframes = graph.keyframes;
+  const Levels levels(graph, config_.max_level_step_m);
   const std::size_t newest = keyframes.size() - 1;
   std::vector<Candidate> near;
   for (std::size_t i = 0; i < newest && path_m_[newest] - path_m_[i] > config_.min_path_m; ++i) {
+    if (levels.areTwoStoreys(keyframes[i], keyframes[newest])) continue;
     Candidate candidate;
     candidate.index = i;
     candidate.T_old_new_guess =
@@ -141,6 +175,17 @@ std::optional<LoopClosure> LoopCloser::verify(const Candidate& candidate,
                                  fit.estimate.T_map_base);
   const Matrix6 gate = kGateInflation * uncertainty + covariance;
   if (surprise.dot(gate.ldlt().solve(surprise)) > config_.max_chi2) return std::nullopt;
+  if (!old.floor || !newest.floor) {
+    const Eigen::Vector3d up_old = T_old_map.linear().col(2);
+    const Eigen::Vector3d up_newest = newest.T_map_base.linear().row(2).transpose();
+    const double sigma_m =
+        std::sqrt(up_newest.dot(uncertainty.topLeftCorner<3, 3>() * up_newest));
+    const double climb_m = up_old.dot(fit.estimate.T_map_base.translation() -
+                                      T_old_map * newest.T_map_base.translation());
+    if (std::abs(climb_m) > std::max(config_.max_climb_m, kClimbSigmas * sigma_m)) {
+      return std::nullopt;
+    }
+  }
 
   return LoopClosure{old.id, newest.id, fit.estimate.T_map_base, covariance.inverse()};
 }
@@ -155,7 +200,7 @@ std::vector<LoopClosure> LoopCloser::find(const GraphSnapshot& graph) {
 
   const std::vector<Matrix6> uncertainty = uncertaintyToNewest(graph);
   std::vector<LoopClosure> loops;
-  for (const Candidate& candidate : candidates(keyframes, uncertainty)) {
+  for (const Candidate& candidate : candidates(graph, uncertainty)) {
     const auto loop = verify(candidate, keyframes, uncertainty[candidate.index]);
     if (!loop) continue;
     loops.push_back(*loop);

@@ -10,6 +10,7 @@
 #include "mrpt_sgraphs/frontend/ground_layer.h"
 #include "mrpt_sgraphs/frontend/wall_layer.h"
 #include "mrpt_sgraphs/hierarchy/optimize_selection.h"
+#include "mrpt_sgraphs/semantics/floor_layer.h"
 #include "mrpt_sgraphs/semantics/room_layer.h"
 
 namespace mrpt_sgraphs {
@@ -175,7 +176,13 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
   return outcome;
 }
 
-std::vector<OptimizationSummary> GraphSlam::setFloors(const FloorDetection&) { return {}; }
+std::vector<OptimizationSummary> GraphSlam::setFloors(const FloorDetection& detection) {
+  std::vector<OptimizationSummary> optimizations;
+  if (updateFloors(detection, &state_->ground, &state_->graph)) {
+    state_->settle(false, &optimizations);
+  }
+  return optimizations;
+}
 
 std::vector<OptimizationSummary> GraphSlam::setRooms(const RoomDetection& detection) {
   std::vector<OptimizationSummary> optimizations;

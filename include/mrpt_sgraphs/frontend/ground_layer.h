@@ -21,6 +21,10 @@ class GroundLayer {
   /// @return Whether the graph has new factors.
   bool associate(const WayToNewest& way, LayeredGraph* graph);
 
+  /// Two levels that are one: what saw the one that goes sees the other, which takes its place.
+  /// @return Whether it was done: not if one of them was not made here, or is gone.
+  bool merge(FloorId stays, FloorId goes, LayeredGraph* graph);
+
  private:
   struct Level : SurfaceTrack {
     std::optional<FloorId> id;  ///< None on probation.
@@ -39,6 +43,7 @@ class GroundLayer {
                                          const Eigen::Vector3d& up_base) const;
   void stand(double height_m, double way_m);
   Level* levelOf(const ObservedPlane& ground, const WayToNewest& way, const LayeredGraph& graph);
+  bool isWideEnough(const Level& level, const LayeredGraph& graph) const;
   void refreshPlanes(const LayeredGraph& graph);
   void addFactor(SurfaceSighting* sighting, FloorId floor, LayeredGraph* graph) const;
   void updateFloor(const Level& level, LayeredGraph* graph) const;

@@ -19,7 +19,8 @@ struct GroundLayerConfig {
   double max_offset_m = 1.0;       ///< However uncertain the way, planes that lie farther apart
                                    ///< are not one level.
   double max_chi2 = 16.3;          ///< Gate on being on a level, 3 degrees of freedom (0.1 %).
-  int min_sightings = 5;           ///< Keyframes that make a level: a landing has fewer.
+  int min_sightings = 5;           ///< Keyframes that make a level: a landing has fewer,
+  double min_spread_m = 3.0;       ///< ... and they lie nearer to each other. Not asked of the first.
   double forget_after_m = 20.0;    ///< What is none after this way never will be; a usual
                                    ///< height not met for as long is no usual one.
   double kernel_chi2 = 7.8;        ///< Sightings with a larger chi2 lose weight (3 dof, 5 %).
@@ -35,6 +36,7 @@ struct GroundLayerConfig {
     field("max_offset_m", self.max_offset_m, 0.01, 10.0);
     field("max_chi2", self.max_chi2, 0.1, 1e6);
     field("min_sightings", self.min_sightings, 1, 1000);
+    field("min_spread_m", self.min_spread_m, 0.0, 100.0);
     field("forget_after_m", self.forget_after_m, 0.1, 1e6);
     field("kernel_chi2", self.kernel_chi2, 0.1, 1e6);
     field("sigma_floor_m", self.floor.m, 1e-5, 1.0);

@@ -29,6 +29,10 @@ inline Plane seenFromPoint(const Plane& plane, const Eigen::Vector3d& origin) {
 /// @param sightings  Those of one keyframe lie together.
 int keyframesOf(const std::vector<SurfaceSighting>& sightings);
 
+/// Those of both, by keyframe as they are.
+std::vector<SurfaceSighting> mergedByKeyframe(const std::vector<SurfaceSighting>& a,
+                                              const std::vector<SurfaceSighting>& b);
+
 /// Forgets sightings that the graph has lost, by keyframe or factor.
 void dropErased(const LayeredGraph& graph, std::vector<SurfaceSighting>* sightings);
 

@@ -58,6 +58,9 @@ class WallExtent {
   /// Parts with more than a gap between them, the largest first.
   std::vector<WallExtent> pieces(double max_gap_m) const;
 
+  /// What of it is at these heights.
+  WallExtent between(double bottom_m, double top_m) const;
+
   /// On the plane of its grid.
   PlanarExtent outline_map(double max_gap_m) const;
 

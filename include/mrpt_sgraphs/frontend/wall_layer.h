@@ -18,7 +18,8 @@ namespace mrpt_sgraphs {
 /// A plane belongs to the wall that it most likely is: same side, the planes agree under the
 /// covariances of both and of the way between the keyframes, and the extents overlap or are no
 /// farther apart than a door is wide. What fits none begins a track, and a track becomes a wall of
-/// the graph when it was seen often enough. Nothing depends on the map's origin or on the
+/// the graph when it was seen often enough. What keyframes of two levels see is two walls, also
+/// where it is one up a stairwell; those on the stairs see either. Nothing depends on the map's origin or on the
 /// directions of its x and y; its z is up.
 class WallLayer {
  public:
@@ -110,6 +111,10 @@ class WallLayer {
   std::optional<SurfaceFit> mergeFit(const WallTrack& a, const WallTrack& b, const Gate& gate,
                                      const LayeredGraph& graph) const;
   TrackNumber merge(TrackNumber a, TrackNumber b, LayeredGraph* graph);
+  /// Where walls of two storeys are seen to be one surface up a stairwell, each ends at the ground
+  /// of the upper one.
+  void cutAtGrounds(const LayeredGraph& graph);
+  bool goOnInEachOther(const WallTrack& a, const WallTrack& b, const LayeredGraph& graph) const;
   void updateOutlines(LayeredGraph* graph);
 
   bool updatePairs(LayeredGraph* graph);

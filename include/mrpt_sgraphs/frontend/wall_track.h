@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <optional>
 #include <set>
 #include <vector>
@@ -17,6 +18,12 @@ namespace mrpt_sgraphs {
 /// The number of a track: in the order in which they began.
 using TrackNumber = uint64_t;
 
+/// Where the wall of one storey ends and that of another goes on [m].
+struct StoreyCut {
+  double bottom_m = -std::numeric_limits<double>::infinity();
+  double top_m = std::numeric_limits<double>::infinity();
+};
+
 /// One side of a wall, from its first sighting on: on probation, then a node of the graph.
 struct WallTrack : SurfaceTrack {
   std::optional<WallId> id;  ///< None on probation.
@@ -25,10 +32,27 @@ struct WallTrack : SurfaceTrack {
   double seen_at_m = 0.0;       ///< The way that the robot had gone at the last sighting.
   SeeThrough see_through;
   bool is_furniture = false;    ///< Was seen over, or past its ends: never a wall.
+  std::optional<FloorId> floor;  ///< Most keyframes that see it are on; none: no level is known.
+  bool is_on_more = false;       ///< Keyframes of other levels see it too.
+  StoreyCut cut;                 ///< Of the outline, not of the extent.
   bool grown = true;            ///< Since it was last compared with the others.
   std::optional<PlanarExtent> outline_map;  ///< Of the extent, on its grid; none after a change.
   std::set<TrackNumber> apart;              ///< What was split from it: not to be merged again.
 };
+
+/// Of a keyframe that sees, or may see, something; none: on stairs, or not known yet.
+inline const std::optional<FloorId>& floorOf(const SurfaceSighting& sighting,
+                                             const LayeredGraph& graph) {
+  return graph.attributes(sighting.keyframe).floor;
+}
+
+/// Both are known, and not the same.
+inline bool areApart(const std::optional<FloorId>& a, const std::optional<FloorId>& b) {
+  return a && b && *a != *b;
+}
+
+/// The track's level from where its keyframes are now; of as many the older one.
+void updateFloor(const LayeredGraph& graph, WallTrack* track);
 
 /// Everything anew from all sightings, but for the plane of a wall of the graph.
 void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track);

@@ -24,6 +24,9 @@ struct LoopCloserConfig {
   double min_overlap = 0.6;      ///< Share of the points that must find their plane.
   double max_rms_m = 0.04;       ///< Of their distances to it.
   double max_chi2 = 22.5;        ///< Gate on the closed loop, 6 degrees of freedom (0.1 %).
+  double max_level_step_m = 0.5;   ///< Levels that are farther apart are two however they look.
+  double max_climb_m = 0.3;      ///< That a loop may put a keyframe of no known level up or down,
+                                 ///< or 3 sigma of the way.
   double sigma_floor_m = 0.01;   ///< No loop is known better than this
   double sigma_floor_rad = 0.002;  ///< or this.
   VoxelMapConfig map;
@@ -41,6 +44,8 @@ struct LoopCloserConfig {
     field("min_overlap", self.min_overlap, 0.05, 1.0);
     field("max_rms_m", self.max_rms_m, 0.001, 1.0);
     field("max_chi2", self.max_chi2, 1.0, 1e6);
+    field("max_level_step_m", self.max_level_step_m, 0.01, 1000.0);
+    field("max_climb_m", self.max_climb_m, 0.01, 1000.0);
     field("sigma_floor_m", self.sigma_floor_m, 1e-4, 1.0);
     field("sigma_floor_rad", self.sigma_floor_rad, 1e-5, 1.0);
     VoxelMapConfig::fields(self.map, field);
@@ -64,6 +69,9 @@ struct LoopClosure {
 /// newest cloud has to fit the merged clouds around the candidate (share of points, their distances,
 /// no direction left open), and the closed loop has to be believable under the uncertainty of the
 /// way round it.
+///
+/// Storeys look alike: keyframes of two levels are never joined, and where the level of one is not
+/// known, as on stairs, the loop may not change its height by more than the way leaves open.
 class LoopCloser {
  public:
   explicit LoopCloser(const LoopCloserConfig& config) : config_(config) {}
@@ -78,7 +86,7 @@ class LoopCloser {
   using Keyframes = SharedVector<KeyframeNode>;
 
   void describe(const Keyframes& keyframes);
-  std::vector<Candidate> candidates(const Keyframes& keyframes,
+  std::vector<Candidate> candidates(const GraphSnapshot& graph,
                                     const std::vector<Matrix6>& uncertainty) const;
   std::optional<LoopClosure> verify(const Candidate& candidate, const Keyframes& keyframes,
                                     const Matrix6& uncertainty) const;
