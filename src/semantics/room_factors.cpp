@@ -196,7 +196,8 @@ bool exchangeFactors(RoomId id, const std::vector<FactorConstPtr>& wanted, Layer
     for (const FactorLink& link : *links) {
       const Factor& factor = *graph->factor(link.id);
       std::size_t same = 0;
-      while (same < wanted.size() && (is_there[same] || !saysTheSame(factor, *wanted[same]))) ++same;
+      while (same < wanted.size() && (is_there[same] || !saysTheSame(factor, *wanted[same])))
+        ++same;
       if (same < wanted.size()) {
         is_there[same] = true;
       } else {

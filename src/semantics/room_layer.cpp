@@ -18,10 +18,9 @@ namespace {
 constexpr double kSame_m = 0.005;  ///< What has moved by less is where it was.
 
 bool isSame(const Outline3& a, const Outline3& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
-                      return (p - q).norm() < kSame_m;
-                    });
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) { return (p - q).norm() < kSame_m; });
 }
 
 bool isSame(const Doorway& a, const Doorway& b) {
@@ -219,7 +218,8 @@ void RoomLayer::follow(LayeredGraph* graph) {
   for (auto& [id, known] : known_) {
     if (!graph->contains(id) || !graph->contains(known.room.anchor)) continue;
     const Pose T_map_room = graph->pose(id);
-    if (!known.T_room_anchor) known.T_room_anchor = T_map_room.inverse() * graph->pose(known.room.anchor);
+    if (!known.T_room_anchor)
+      known.T_room_anchor = T_map_room.inverse() * graph->pose(known.room.anchor);
     const Pose T_map_shape = T_map_room * *known.T_room_anchor;
     RoomAttributes attributes = graph->attributes(id);
     attributes.extent_map = T_map_shape * known.room.extent_anchor;

@@ -197,10 +197,11 @@ TEST(RoomLayer, ADetectionMayBeOlderThanTheGraph) {
   lab.layer.update(stale, &lab.graph);
   const RoomAttributes& west = lab.graph.attributes(RoomId{0});
   EXPECT_EQ(west.walls, (std::vector<WallId>{lab.west[0], lab.west[2], lab.west[3]}));
-  EXPECT_NEAR((west.extent_map.outline[2] - T_new_old * Eigen::Vector3d(4.0, 3.0, 0.0)).norm(),
-              0.0, 0.05);
-  EXPECT_NEAR((lab.graph.pose(RoomId{0}).translation() -
-               T_new_old * Eigen::Vector3d(2.0, 1.5, 0.0)).norm(), 0.0, 0.05);
+  EXPECT_NEAR((west.extent_map.outline[2] - T_new_old * Eigen::Vector3d(4.0, 3.0, 0.0)).norm(), 0.0,
+              0.05);
+  EXPECT_NEAR(
+      (lab.graph.pose(RoomId{0}).translation() - T_new_old * Eigen::Vector3d(2.0, 1.5, 0.0)).norm(),
+      0.0, 0.05);
   EXPECT_FALSE(lab.graph.attributes(newest).room);
   EXPECT_EQ(lab.count("room_wall"), 7U);
 }

@@ -24,8 +24,8 @@ std::optional<Eigen::Vector3d> rightAngledAxis(const BoundingWall& wall, double 
 std::vector<FactorConstPtr> roomFactors(RoomId id, const DetectedRoom& room,
                                         const RoomLayerConfig& config, const LayeredGraph& graph);
 
-/// Makes the room's factors those that are wanted. A factor that is there and says the same, but for
-/// what the next detection may say otherwise, stays.
+/// Makes the room's factors those that are wanted. A factor that is there and says the same, but
+/// for what the next detection may say otherwise, stays.
 /// @return Whether one has come or gone.
 bool exchangeFactors(RoomId id, const std::vector<FactorConstPtr>& wanted, LayeredGraph* graph);
 

@@ -7,12 +7,12 @@ namespace mrpt_sgraphs {
 
 /// What rooms do in the graph.
 struct RoomLayerConfig {
-  bool factors = true;  ///< Whether rooms tie their walls to each other.
-  double max_angle_rad = 0.035;  ///< Walls that are farther from a right angle have none.
+  bool factors = true;                   ///< Whether rooms tie their walls to each other.
+  double max_angle_rad = 0.035;          ///< Walls that are farther from a right angle have none.
   double right_angle_sigma_rad = 0.002;  ///< How far walls are from right angles,
   double upright_sigma_rad = 0.002;      ///< and from upright in their room.
   double floor_sigma_rad = 0.005;        ///< How far rooms are from upright on their floor.
-  double kernel_chi2 = 6.0;  ///< Walls with a larger chi2 lose weight (2 dof, 5 %).
+  double kernel_chi2 = 6.0;              ///< Walls with a larger chi2 lose weight (2 dof, 5 %).
 
   template <typename Self, typename Field>
   static void fields(Self& self, Field&& field) {
