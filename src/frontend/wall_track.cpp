@@ -3,6 +3,7 @@
 
 #include "mrpt_sgraphs/frontend/wall_track.h"
 
+#include "mrpt_sgraphs/factors/room_walls.h"
 #include "mrpt_sgraphs/factors/wall_pair.h"
 
 namespace mrpt_sgraphs {
@@ -34,7 +35,11 @@ void extend(const SurfaceSighting& sighting, const LayeredGraph& graph, WallTrac
 bool isFree(const WallTrack& track, const LayeredGraph& graph) {
   if (!track.id) return true;
   for (const FactorLink& link : graph.otherFactorsOf(*track.id)) {
-    if (dynamic_cast<const WallPairFactor*>(graph.factor(link.id).get()) == nullptr) return false;
+    const Factor* const factor = graph.factor(link.id).get();
+    const bool is_renewed = dynamic_cast<const WallPairFactor*>(factor) != nullptr ||
+                            dynamic_cast<const RoomWallFactor*>(factor) != nullptr ||
+                            dynamic_cast<const RoomCentreFactor*>(factor) != nullptr;
+    if (!is_renewed) return false;
   }
   return true;
 }

@@ -3,10 +3,232 @@
 
 #include "mrpt_sgraphs/semantics/room_layer.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "mrpt_sgraphs/semantics/room_factors.h"
+#include "mrpt_sgraphs/semantics/room_matching.h"
+
 namespace mrpt_sgraphs {
+namespace {
 
-bool RoomLayer::update(const RoomDetection&, LayeredGraph*) { return false; }
+constexpr double kSame_m = 0.005;  ///< What has moved by less is where it was.
 
-void RoomLayer::follow(LayeredGraph*) {}
+bool isSame(const Outline3& a, const Outline3& b) {
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) { return (p - q).norm() < kSame_m; });
+}
+
+bool isSame(const Doorway& a, const Doorway& b) {
+  return a.to == b.to && (a.centre_map - b.centre_map).norm() < kSame_m &&
+         std::abs(a.width_m - b.width_m) < kSame_m;
+}
+
+bool isSame(const RoomAttributes& a, const RoomAttributes& b) {
+  return a.kind == b.kind && a.walls == b.walls && a.floor == b.floor && a.name == b.name &&
+         (a.size_m - b.size_m).norm() < kSame_m && std::abs(a.height_m - b.height_m) < kSame_m &&
+         isSame(a.extent_map.outline, b.extent_map.outline) &&
+         std::equal(a.extent_map.holes.begin(), a.extent_map.holes.end(),
+                    b.extent_map.holes.begin(), b.extent_map.holes.end(),
+                    [](const Outline3& p, const Outline3& q) { return isSame(p, q); }) &&
+         std::equal(a.doorways.begin(), a.doorways.end(), b.doorways.begin(), b.doorways.end(),
+                    [](const Doorway& p, const Doorway& q) { return isSame(p, q); });
+}
+
+/// "corridor 5", until somebody gives it another one.
+std::string defaultName(RoomAttributes::Kind kind, RoomId id) {
+  const char* const word = kind == RoomAttributes::Kind::kCorridor ? "corridor " : "room ";
+  return word + std::to_string(id.value);
+}
+
+std::vector<WallId> wallsOf(const DetectedRoom& room) {
+  std::vector<WallId> walls;
+  for (const BoundingWall& wall : room.walls) walls.push_back(wall.id);
+  return walls;
+}
+
+/// What the graph is to know of the rooms, where their anchors have them now.
+/// @param nodes  None: passed over.
+std::vector<RoomAttributes> attributesOf(const std::vector<DetectedRoom>& rooms,
+                                         const std::vector<std::optional<RoomId>>& nodes,
+                                         const LayeredGraph& graph) {
+  std::vector<RoomAttributes> result(rooms.size());
+  for (std::size_t k = 0; k < rooms.size(); ++k) {
+    if (!nodes[k]) continue;
+    const DetectedRoom& room = rooms[k];
+    const Pose T_map_anchor = graph.pose(room.anchor);
+    RoomAttributes& attributes = result[k];
+    attributes.kind = room.kind;
+    attributes.floor = room.floor;
+    attributes.size_m = room.size_m;
+    attributes.extent_map = T_map_anchor * room.extent_anchor;
+    attributes.height_m = room.height_m;
+    attributes.walls = wallsOf(room);
+    for (const DetectedDoorway& doorway : room.doorways) {
+      const std::optional<RoomId> to = doorway.to ? nodes.at(*doorway.to) : std::nullopt;
+      attributes.doorways.push_back({to, T_map_anchor * doorway.centre_anchor, doorway.width_m});
+    }
+  }
+  return result;
+}
+
+/// Who comes into a room by a doorway gets out of it by the same one.
+void makeDoorwaysMutual(const std::vector<DetectedRoom>& rooms,
+                        const std::vector<std::optional<RoomId>>& nodes,
+                        std::vector<RoomAttributes>* attributes) {
+  constexpr double kSameDoorway_m = 1.0;
+  for (std::size_t k = 0; k < rooms.size(); ++k) {
+    if (!nodes[k]) continue;
+    for (std::size_t j = 0; j < rooms[k].doorways.size(); ++j) {
+      const Doorway doorway = (*attributes)[k].doorways[j];
+      if (!doorway.to) continue;
+      std::vector<Doorway>& others = (*attributes)[*rooms[k].doorways[j].to].doorways;
+      const bool is_there = std::any_of(others.begin(), others.end(), [&](const Doorway& other) {
+        return other.to == nodes[k] &&
+               (other.centre_map - doorway.centre_map).norm() < kSameDoorway_m;
+      });
+      if (!is_there) others.push_back({nodes[k], doorway.centre_map, doorway.width_m});
+    }
+  }
+}
+
+/// Without what the graph has lost since, and without repetitions.
+DetectedRoom inGraph(DetectedRoom room, const LayeredGraph& graph) {
+  std::set<WallId> taken;
+  const auto is_none = [&](const BoundingWall& wall) {
+    return !graph.contains(wall.id) || !taken.insert(wall.id).second;
+  };
+  std::vector<BoundingWall> walls;
+  std::remove_copy_if(room.walls.begin(), room.walls.end(), std::back_inserter(walls), is_none);
+  room.walls = walls;
+  if (room.floor && !graph.contains(*room.floor)) room.floor.reset();
+  return room;
+}
+
+}  // namespace
+
+bool RoomLayer::update(const RoomDetection& detection, LayeredGraph* graph) {
+  std::vector<DetectedRoom> rooms;
+  for (const DetectedRoom& room : detection.rooms) rooms.push_back(inGraph(room, *graph));
+  std::vector<std::optional<RoomId>> nodes = matchRooms(rooms, *graph);
+  bool changed = eraseAllBut(nodes, graph);
+  for (std::size_t k = 0; k < rooms.size(); ++k) {
+    if (!graph->contains(rooms[k].anchor)) continue;  // nobody can say where it is
+    if (nodes[k]) {
+      rooms[k] = turnedTo(graph->pose(*nodes[k]), *graph, rooms[k]);
+    } else {
+      nodes[k] = graph->addRoom(graph->pose(rooms[k].anchor) * rooms[k].T_anchor_room, {});
+    }
+  }
+  std::vector<RoomAttributes> attributes = attributesOf(rooms, nodes, *graph);
+  makeDoorwaysMutual(rooms, nodes, &attributes);
+  for (std::size_t k = 0; k < rooms.size(); ++k) {
+    if (!nodes[k]) continue;
+    if (bringInLine(*nodes[k], rooms[k], attributes[k], graph)) changed = true;
+  }
+  assignKeyframes(detection, nodes, graph);
+  return changed;
+}
+
+RoomLayer::Known RoomLayer::shapeOf(const DetectedRoom& room, const RoomAttributes& attributes,
+                                    const Pose& T_map_room, const LayeredGraph& graph) {
+  const Pose T_anchor_map = graph.pose(room.anchor).inverse();
+  Known known{room, attributes.doorways, T_map_room.inverse() * graph.pose(room.anchor)};
+  for (Doorway& doorway : known.doorways_anchor) {
+    doorway.centre_map = T_anchor_map * doorway.centre_map;
+  }
+  return known;
+}
+
+bool RoomLayer::eraseAllBut(const std::vector<std::optional<RoomId>>& nodes, LayeredGraph* graph) {
+  std::vector<RoomId> gone;
+  for (uint32_t slot = 0; slot < graph->size(Layer::kRoom); ++slot) {
+    const RoomId id{graph->nodeAt({Layer::kRoom, slot}).value};
+    if (std::find(nodes.begin(), nodes.end(), id) == nodes.end()) gone.push_back(id);
+  }
+  for (const RoomId id : gone) {
+    graph->eraseNode(id);
+    known_.erase(id);
+  }
+  return !gone.empty();
+}
+
+bool RoomLayer::bringInLine(RoomId id, const DetectedRoom& room, RoomAttributes attributes,
+                            LayeredGraph* graph) {
+  const RoomAttributes& before = graph->attributes(id);
+  const bool is_named = !before.name.empty() && before.name != defaultName(before.kind, id);
+  attributes.name = is_named ? before.name : defaultName(attributes.kind, id);
+  const bool is_new = known_.count(id) == 0;
+  Known& known = known_[id];
+  if (is_new || !isSame(attributes, before)) {
+    known = shapeOf(room, attributes, graph->pose(id), *graph);
+    graph->setAttributes(id, attributes);
+  }
+  const bool changed = exchangeFactors(id, roomFactors(id, room, config_, *graph), graph);
+  if (changed) {
+    graph->setPose(id, graph->pose(room.anchor) * room.T_anchor_room);
+    known.T_room_anchor.reset();
+  }
+  return changed;
+}
+
+void RoomLayer::assignKeyframes(const RoomDetection& detection,
+                                const std::vector<std::optional<RoomId>>& nodes,
+                                LayeredGraph* graph) const {
+  std::map<KeyframeId, RoomId> room_of;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (!nodes[k]) continue;
+    for (const KeyframeId keyframe : detection.rooms[k].keyframes) room_of[keyframe] = *nodes[k];
+  }
+  for (uint32_t slot = 0; slot < graph->size(Layer::kKeyframe); ++slot) {
+    const KeyframeId id{graph->nodeAt({Layer::kKeyframe, slot}).value};
+    const KeyframeAttributes& keyframe = graph->attributes(id);
+    const bool is_newer = keyframe.stamp_s > detection.stamp_s;
+    if (is_newer && (!keyframe.room || graph->contains(*keyframe.room))) continue;
+    const auto found = room_of.find(id);
+    const std::optional<RoomId> room =
+        found == room_of.end() ? std::nullopt : std::optional<RoomId>(found->second);
+    if (keyframe.room == room) continue;
+    KeyframeAttributes assigned = keyframe;
+    assigned.room = room;
+    graph->setAttributes(id, assigned);
+  }
+}
+
+void RoomLayer::mend(LayeredGraph* graph) {
+  if (graph->erasures() == erasures_) return;
+  erasures_ = graph->erasures();
+  for (auto& [id, known] : known_) {
+    if (!graph->contains(id) || !graph->contains(known.room.anchor)) continue;
+    DetectedRoom room = inGraph(known.room, *graph);
+    if (room.walls.size() == known.room.walls.size()) continue;
+    known.room = room;
+    RoomAttributes attributes = graph->attributes(id);
+    attributes.walls = wallsOf(room);
+    graph->setAttributes(id, attributes);
+    exchangeFactors(id, roomFactors(id, room, config_, *graph), graph);
+  }
+}
+
+void RoomLayer::follow(LayeredGraph* graph) {
+  for (auto& [id, known] : known_) {
+    if (!graph->contains(id) || !graph->contains(known.room.anchor)) continue;
+    const Pose T_map_room = graph->pose(id);
+    if (!known.T_room_anchor)
+      known.T_room_anchor = T_map_room.inverse() * graph->pose(known.room.anchor);
+    const Pose T_map_shape = T_map_room * *known.T_room_anchor;
+    RoomAttributes attributes = graph->attributes(id);
+    attributes.extent_map = T_map_shape * known.room.extent_anchor;
+    attributes.doorways = known.doorways_anchor;
+    for (Doorway& doorway : attributes.doorways) {
+      doorway.centre_map = T_map_shape * doorway.centre_map;
+    }
+    graph->setAttributes(id, attributes);
+  }
+}
 
 }  // namespace mrpt_sgraphs

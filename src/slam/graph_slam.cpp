@@ -121,6 +121,7 @@ void GraphSlam::State::settle(bool after_loop, std::vector<OptimizationSummary>*
   constexpr int kMaxRounds = 3;
   if (after_loop && config.walls.enabled) walls.release(&graph);
   for (int round = 0; round < kMaxRounds; ++round) {
+    rooms.mend(&graph);
     optimizations->push_back(optimizeOnce());
     rooms.follow(&graph);
     if (!config.walls.enabled || graph.size(Layer::kKeyframe) == 0) return;

@@ -31,8 +31,8 @@ class WallLayer {
 
   /// What is to be done after an optimization: walls that have grown together become the older one
   /// of them, with all factors; one that turns out to be two is split; pairs and outlines are
-  /// brought up to date. A wall that other factors than sightings and pairs tie down is never given
-  /// up for another.
+  /// brought up to date. The factors of a wall that is given up for another go with it, but for its
+  /// sightings; one that other factors than sightings, pairs and rooms tie down never is.
   /// @return Whether factors have come, gone or changed their wall: the graph is not at its
   /// optimum.
   bool maintain(const WayToNewest& way, LayeredGraph* graph) { return maintain({way, 1.0}, graph); }

@@ -60,7 +60,8 @@ void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track);
 /// One more sighting, and the extent with it.
 void extend(const SurfaceSighting& sighting, const LayeredGraph& graph, WallTrack* track);
 
-/// Nothing but sightings and pairs ties the track's wall to the rest.
+/// Nothing but sightings, pairs and rooms ties the track's wall to the rest: they are found again
+/// when it has become another.
 bool isFree(const WallTrack& track, const LayeredGraph& graph);
 
 }  // namespace mrpt_sgraphs

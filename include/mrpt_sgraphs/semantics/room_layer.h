@@ -3,6 +3,10 @@
 
 #pragma once
 
+#include <map>
+#include <optional>
+#include <vector>
+
 #include "mrpt_sgraphs/graph/layered_graph.h"
 #include "mrpt_sgraphs/semantics/detected_room.h"
 #include "mrpt_sgraphs/semantics/room_layer_config.h"
@@ -11,19 +15,48 @@ namespace mrpt_sgraphs {
 
 /// The rooms layer: which detected room is which node of the graph, and the factors that tie its
 /// walls through it.
+///
+/// A room keeps its id while it grows and while the graph moves. Rooms that have become one are the
+/// oldest of them, of a room that has become several the largest part keeps the id, and a room that
+/// is no more is erased. Nothing depends on the map's origin or on the directions of its x and y.
 class RoomLayer {
  public:
   explicit RoomLayer(const RoomLayerConfig& config) : config_(config) {}
 
-  /// Brings the graph's rooms in line with a detection, which may be older than the graph.
+  /// Brings the graph's rooms in line with a detection, which may be older than the graph: what it
+  /// does not know of stays as it is, and walls that the graph has lost since are passed over. What
+  /// is as it was is not touched.
   /// @return Whether factors have come or gone.
   bool update(const RoomDetection& detection, LayeredGraph* graph);
+
+  /// To be called before an optimization: what rooms knew of walls that have been erased is held by
+  /// others of their factors.
+  void mend(LayeredGraph* graph);
 
   /// To be called after an optimization: outlines and doorways follow their rooms.
   void follow(LayeredGraph* graph);
 
  private:
+  /// A room as it was last detected, its axes as those of its node.
+  struct Known {
+    DetectedRoom room;
+    std::vector<Doorway> doorways_anchor;  ///< As those of the graph, but for the frame.
+    /// How outline and doorways move with the room. None: not yet, the room has new factors and is
+    /// not where they want it.
+    std::optional<Pose> T_room_anchor;
+  };
+
+  static Known shapeOf(const DetectedRoom& room, const RoomAttributes& attributes,
+                       const Pose& T_map_room, const LayeredGraph& graph);
+  bool eraseAllBut(const std::vector<std::optional<RoomId>>& nodes, LayeredGraph* graph);
+  bool bringInLine(RoomId id, const DetectedRoom& room, RoomAttributes attributes,
+                   LayeredGraph* graph);
+  void assignKeyframes(const RoomDetection& detection,
+                       const std::vector<std::optional<RoomId>>& nodes, LayeredGraph* graph) const;
+
   RoomLayerConfig config_;
+  std::map<RoomId, Known> known_;
+  uint64_t erasures_ = 0;  ///< Of the graph, when it was last looked at.
 };
 
 }  // namespace mrpt_sgraphs
