@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <pluginlib/class_list_macros.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "cloud_trace.h"
@@ -17,8 +18,10 @@
 #include "graph_services.h"
 #include "graph_slam_thread.h"
 #include "mrpt_sgraphs/ros/conversions.h"
+#include "mrpt_sgraphs/ros/detections.h"
 #include "pipeline_nodelet.h"
 #include "stamp_matcher.h"
+#include "throttle.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -42,10 +45,14 @@ std::string rescueFolder(double last_stamp_s) {
 ///             keyframe_points  (Cloud, zero-copy)              and
 ///             keyframe_planes  (mrpt_sgraphs/KeyframePlanes)   by their stamp
 ///             scan_odometry    (mrpt_sgraphs/ScanOdometry)     for the trajectory of every scan
+///             floors           (mrpt_sgraphs/Floors)           found in the graph that it published
+///             rooms            (mrpt_sgraphs/Rooms)            likewise
 /// Publishes   see GraphPublisher and DisplayPublisher
 /// Serves      see GraphServices
-/// Parameters  loop_closure/*, walls/*, ground/*, solver/*, and for the record of a run all of SlamConfig
+/// Parameters  loop_closure/*, walls/*, ground/*, rooms/*, solver/*, and for the record of a run all of
+///             SlamConfig
 ///             frames/map, frames/odom                          FramesConfig
+
 class GraphSlamNodelet final : public PipelineNodelet {
  private:
   using CloudConstPtr = boost::shared_ptr<const Cloud>;
@@ -58,7 +65,9 @@ class GraphSlamNodelet final : public PipelineNodelet {
     publisher_ = std::make_unique<GraphPublisher>(nh, frames);
     slam_ = std::make_unique<GraphSlamThread>(
         config, GraphSlamThread::Listener{
-                    [this](const GraphSnapshotConstPtr& graph) { publisher_->publish(graph); },
+                    [this](const GraphSnapshotConstPtr& graph, std::uint32_t session) {
+                      publisher_->publish(graph, session);
+                    },
                     [this](const OptimizationSummary& summary) { onOptimization(summary); },
                     [this](const std::string& problem) { NODELET_WARN("%s", problem.c_str()); }});
 
@@ -77,6 +86,8 @@ class GraphSlamNodelet final : public PipelineNodelet {
     keyframe_sub_ = nh.subscribe("keyframe", kQueueSize, &GraphSlamNodelet::onKeyframe, this);
     cloud_sub_ = nh.subscribe("keyframe_points", kQueueSize, &GraphSlamNodelet::onCloud, this);
     planes_sub_ = nh.subscribe("keyframe_planes", kQueueSize, &GraphSlamNodelet::onPlanes, this);
+    floors_sub_ = nh.subscribe("floors", kQueueSize, &GraphSlamNodelet::onFloors, this);
+    rooms_sub_ = nh.subscribe("rooms", kQueueSize, &GraphSlamNodelet::onRooms, this);
   }
 
   void onScan(const ScanOdometryConstPtr& msg) {
@@ -109,6 +120,23 @@ class GraphSlamNodelet final : public PipelineNodelet {
     add(matcher_.add<2>(pcl_conversions::toPCL(msg->header.stamp), msg));
   }
 
+  void onFloors(const FloorsConstPtr& msg) {
+    takeDetection([&] { slam_->setFloors(msg->session, toFloorDetection(*msg)); });
+  }
+
+  void onRooms(const RoomsConstPtr& msg) {
+    takeDetection([&] { slam_->setRooms(msg->session, toRoomDetection(*msg), msg->detect_ms); });
+  }
+
+  template <typename Take>
+  void takeDetection(const Take& take) {
+    try {
+      take();
+    } catch (const std::invalid_argument& error) {
+      if (warning_.passes(error.what())) NODELET_WARN("Not used: %s.", error.what());
+    }
+  }
+
   void add(const std::optional<Matcher::Set>& set) {
     if (!set) return;
     const auto& [msg, cloud, planes] = *set;
@@ -124,7 +152,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
     if (session > session_) {
       session_ = session;
       matcher_.clear();
-      slam_->startAgain(rescueFolder(last_stamp_s_));
+      slam_->startAgain(session, rescueFolder(last_stamp_s_));
     }
     return session == session_;
   }
@@ -152,6 +180,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
     status.add("keyframes incomplete", matcher_.waiting());
     status.add("keyframes", graph ? graph->keyframes.size() : 0);
     status.add("walls", graph ? graph->walls.size() : 0);
+    status.add("rooms", graph ? graph->rooms.size() : 0);
     status.add("floors", graph ? graph->floors.size() : 0);
     status.add("factors", graph ? graph->factors.size() : 0);
     const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
@@ -164,6 +193,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
   }
 
   Matcher matcher_;
+  Throttle warning_;
   std::uint32_t session_ = 0;
   double last_stamp_s_ = 0.0;
   std::mutex last_optimization_mutex_;  ///< Guards the next one.
@@ -178,7 +208,9 @@ class GraphSlamNodelet final : public PipelineNodelet {
   ros::Subscriber scan_sub_;
   ros::Subscriber keyframe_sub_;
   ros::Subscriber cloud_sub_;
-  ros::Subscriber planes_sub_;  ///< Last members: no callback outlives the others.
+  ros::Subscriber planes_sub_;
+  ros::Subscriber floors_sub_;
+  ros::Subscriber rooms_sub_;  ///< Last members: no callback outlives the others.
 };
 
 }  // namespace mrpt_sgraphs
