@@ -52,7 +52,7 @@ std::string rescueFolder(double last_stamp_s) {
 /// Parameters  loop_closure/*, walls/*, ground/*, rooms/*, solver/*, and for the record of a run all of
 ///             SlamConfig
 ///             frames/map, frames/odom                          FramesConfig
-
+///             display/*                                        DisplayConfig
 class GraphSlamNodelet final : public PipelineNodelet {
  private:
   using CloudConstPtr = boost::shared_ptr<const Cloud>;
@@ -61,6 +61,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
   void start() override {
     const SlamConfig config = loadSlamConfig(getNodeHandle());
     const auto frames = section<FramesConfig>("frames");
+    const auto display = section<DisplayConfig>("display");
     ros::NodeHandle& nh = getNodeHandle();
     publisher_ = std::make_unique<GraphPublisher>(nh, frames);
     slam_ = std::make_unique<GraphSlamThread>(
@@ -75,9 +76,10 @@ class GraphSlamNodelet final : public PipelineNodelet {
     patient_nh.setCallbackQueue(&patient_queue_);
     services_ = std::make_unique<GraphServices>(patient_nh, *slam_, frameName(frames.map));
     display_ = std::make_unique<DisplayPublisher>(
-        patient_nh, frameName(frames.map),
+        patient_nh, GraphView{frameName(frames.map), display.layer_lift_m},
         DisplayPublisher::Source{[this] { return publisher_->graph(); },
-                                 [this] { return slam_->trajectory().get(); }});
+                                 [this] { return slam_->trajectory().get(); },
+                                 [this] { return lastOptimization(); }});
     patient_spinner_.start();
 
     diagnostics_ = std::make_unique<Diagnostics>(
@@ -163,6 +165,11 @@ class GraphSlamNodelet final : public PipelineNodelet {
     last_optimization_ = summary;
   }
 
+  std::optional<OptimizationSummary> lastOptimization() {
+    const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
+    return last_optimization_;
+  }
+
   void describe(Diagnostics::Status& status) {
     constexpr std::size_t kMaxWaiting = 100;    // ten seconds of scans
     constexpr std::size_t kMaxIncomplete = 10;  // as many metres, unless told otherwise
@@ -183,13 +190,13 @@ class GraphSlamNodelet final : public PipelineNodelet {
     status.add("rooms", graph ? graph->rooms.size() : 0);
     status.add("floors", graph ? graph->floors.size() : 0);
     status.add("factors", graph ? graph->factors.size() : 0);
-    const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
-    if (!last_optimization_) return;
-    status.add("last optimization", last_optimization_->kind);
-    status.add("last optimization, stamp", last_optimization_->stamp_s);
-    status.add("last optimization, ms", last_optimization_->total_ms);
-    status.add("last optimization, iterations", last_optimization_->iterations);
-    status.add("last optimization, converged", last_optimization_->converged);
+    const std::optional<OptimizationSummary> optimization = lastOptimization();
+    if (!optimization) return;
+    status.add("last optimization", optimization->kind);
+    status.add("last optimization, stamp", optimization->stamp_s);
+    status.add("last optimization, ms", optimization->total_ms);
+    status.add("last optimization, iterations", optimization->iterations);
+    status.add("last optimization, converged", optimization->converged);
   }
 
   Matcher matcher_;

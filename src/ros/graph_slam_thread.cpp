@@ -61,7 +61,6 @@ void GraphSlamThread::addKeyframe(const Keyframe& keyframe, double segment_ms) {
       scan->segment_ms = segment_ms;
       scan->keyframe_ms = keyframe_ms;
     }
-    tellGraph();
     tell(outcome.optimizations);
   });
 }
@@ -72,7 +71,6 @@ void GraphSlamThread::setFloors(std::uint32_t session, const FloorDetection& flo
     CpuStopwatch stopwatch;
     const auto optimizations = session_->slam.setFloors(floors);
     if (ScanReport* const scan = reportOf(floors.stamp_s)) scan->keyframe_ms += stopwatch.lap();
-    tellGraph();
     tell(optimizations);
   });
 }
@@ -87,7 +85,6 @@ void GraphSlamThread::setRooms(std::uint32_t session, const RoomDetection& rooms
       scan->rooms_ms += detect_ms;
       scan->keyframe_ms += stopwatch.lap();
     }
-    tellGraph();
     tell(optimizations);
   });
 }
@@ -112,7 +109,6 @@ void GraphSlamThread::startAgain(std::uint32_t session, const std::string& folde
 std::future<OptimizationSummary> GraphSlamThread::optimize() {
   return ask<OptimizationSummary>([this] {
     const OptimizationSummary summary = session_->slam.optimize();
-    tellGraph();
     tell({summary});
     return summary;
   });
@@ -158,11 +154,13 @@ ScanReport* GraphSlamThread::reportOf(double stamp_s) {
   return scan == scans.rend() ? nullptr : &*scan;
 }
 
+/// The graph comes last: who shows it knows then which keyframes were in the optimization.
 void GraphSlamThread::tell(const std::vector<OptimizationSummary>& optimizations) {
   for (const OptimizationSummary& optimization : optimizations) {
     session_->optimizations.push_back(optimization);
     listener_.on_optimization(optimization);
   }
+  tellGraph();
 }
 
 /// Unless nothing has changed.
