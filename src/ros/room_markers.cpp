@@ -8,11 +8,11 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr float kAreaAlpha = 0.35F;
+constexpr float kAreaAlpha = 0.45F;
 constexpr double kOutline_m = 0.06;
 constexpr double kCube_m = 1.0;
 constexpr double kDoorway_m = 0.35;
-constexpr double kWallEdge_m = 0.03;
+constexpr double kWallEdge_m = 0.05;
 constexpr double kDoorwayEdge_m = 0.08;
 constexpr double kText_m = 0.9;
 constexpr double kTextAbove_m = 1.3;
@@ -42,8 +42,8 @@ void addRoomMarkers(const GraphSnapshot& graph, const ShownPlaces& places,
   Marker outlines =
       layer("room_outlines", Marker::LINE_LIST, kOutline_m, colour(1.0F, 1.0F, 1.0F), map_frame);
   Marker nodes = layer("rooms", Marker::CUBE_LIST, kCube_m, colour(1.0F, 1.0F, 1.0F), map_frame);
-  Marker walls = layer("room_walls", Marker::LINE_LIST, kWallEdge_m,
-                       colour(0.3F, 0.3F, 0.3F, 0.7F), map_frame);
+  Marker walls =
+      layer("room_walls", Marker::LINE_LIST, kWallEdge_m, colour(0.45F, 0.45F, 0.45F), map_frame);
   Marker doorways = layer("doorways", Marker::SPHERE_LIST, kDoorway_m, dark, map_frame);
   Marker ways = layer("room_doorways", Marker::LINE_LIST, kDoorwayEdge_m, dark, map_frame);
   for (const RoomNode& room : graph.rooms) {

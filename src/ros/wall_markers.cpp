@@ -10,13 +10,13 @@ using visualization_msgs::Marker;
 
 constexpr float kWallAlpha = 0.6F;
 constexpr double kOutline_m = 0.03;
-constexpr double kSight_m = 0.01;
+constexpr double kSight_m = 0.02;
 constexpr double kText_m = 0.3;
 
 /// Keyframes to the walls that they see.
 Marker sights(const GraphSnapshot& graph, const ShownPlaces& places, const std::string& map_frame) {
   Marker lines = layer("wall_observations", Marker::LINE_LIST, kSight_m,
-                       colour(0.5F, 0.5F, 0.5F, 0.4F), map_frame);
+                       colour(0.6F, 0.65F, 0.75F, 0.4F), map_frame);
   for (const StoredFactor& stored : graph.factors) {
     const Factor& factor = *stored.factor;
     const bool is_sight = factor.nodeCount() == 2 && factor.node(0).layer == Layer::kKeyframe &&
