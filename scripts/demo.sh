@@ -69,8 +69,9 @@ fail() {
   exit 1
 }
 
-lift=8
-scripts/demo_view.py rviz/sgraphs.rviz "$simulated/truth" "$lift" > "$out/demo.rviz"
+lift=10
+scripts/demo_view.py ${screen_pid:+--bare} rviz/sgraphs.rviz "$simulated/truth" "$lift" \
+  > "$out/demo.rviz"
 echo "demo.sh: playing $simulated/run.bag, log in $log"
 roslaunch -p "$port" mrpt_sgraphs demo.launch bag:="$simulated/run.bag" \
   rate:="${DEMO_RATE:-1}" layer_lift:="$lift" rviz_config:="$out/demo.rviz" > "$log" 2>&1 < /dev/null &

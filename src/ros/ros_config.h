@@ -34,7 +34,7 @@ struct InputsConfig {
 
 /// How the graph is shown.
 struct DisplayConfig {
-  double layer_lift_m = 8.0;  ///< Each layer so far above the one below; 0: all of it in place.
+  double layer_lift_m = 10.0;  ///< Each layer so far above the one below; 0: all of it in place.
 
   template <typename Self, typename Field>
   static void fields(Self& self, Field&& field) {
