@@ -4,6 +4,7 @@
 #include <ros/callback_queue.h>
 #include <ros/spinner.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -62,6 +63,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
     const SlamConfig config = loadSlamConfig(getNodeHandle());
     const auto frames = section<FramesConfig>("frames");
     const auto display = section<DisplayConfig>("display");
+    detectors_wanted_ = config.floors.enabled && config.room_detection.enabled;
     ros::NodeHandle& nh = getNodeHandle();
     publisher_ = std::make_unique<GraphPublisher>(nh, frames);
     slam_ = std::make_unique<GraphSlamThread>(
@@ -155,6 +157,8 @@ class GraphSlamNodelet final : public PipelineNodelet {
       session_ = session;
       matcher_.clear();
       slam_->startAgain(session, rescueFolder(last_stamp_s_));
+      const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
+      last_optimization_.reset();
     }
     return session == session_;
   }
@@ -180,6 +184,10 @@ class GraphSlamNodelet final : public PipelineNodelet {
     } else if (matcher_.waiting() > kMaxIncomplete) {
       status.summary(Diagnostics::Status::WARN,
                      "keyframes wait for their planes: is PlaneSegmentation loaded?");
+    } else if (detectors_wanted_ &&
+               std::min(rooms_sub_.getNumPublishers(), floors_sub_.getNumPublishers()) == 0) {
+      status.summary(Diagnostics::Status::WARN,
+                     "nobody looks for rooms or floors: are RoomDetector and FloorDetector loaded?");
     } else {
       status.summary(Diagnostics::Status::OK, graph ? "the graph grows" : "no keyframe yet");
     }
@@ -201,6 +209,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
 
   Matcher matcher_;
   Throttle warning_;
+  bool detectors_wanted_ = true;
   std::uint32_t session_ = 0;
   double last_stamp_s_ = 0.0;
   std::mutex last_optimization_mutex_;  ///< Guards the next one.
