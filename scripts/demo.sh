@@ -69,9 +69,12 @@ fail() {
   exit 1
 }
 
+lift=10
+scripts/demo_view.py ${screen_pid:+--bare} rviz/sgraphs.rviz "$simulated/truth" "$lift" \
+  > "$out/demo.rviz"
 echo "demo.sh: playing $simulated/run.bag, log in $log"
 roslaunch -p "$port" mrpt_sgraphs demo.launch bag:="$simulated/run.bag" \
-  rate:="${DEMO_RATE:-1}" > "$log" 2>&1 < /dev/null &
+  rate:="${DEMO_RATE:-1}" layer_lift:="$lift" rviz_config:="$out/demo.rviz" > "$log" 2>&1 < /dev/null &
 launch_pid=$!
 until grep -q 'player-[0-9]*\] process has finished cleanly' "$log"; do
   kill -0 "$launch_pid" 2> /dev/null || fail "the launch ended before the bag did"

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "factor_json.h"
+#include "mrpt_sgraphs/graph/room_kind.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -27,11 +28,9 @@ std::optional<AnyId> idOrNull(const JsonPlace& place) {
 }
 
 RoomAttributes::Kind kindOf(const JsonPlace& place) {
-  const std::string kind = place.string();
-  if (kind == "four_walls") return RoomAttributes::Kind::kFourWalls;
-  if (kind == "corridor") return RoomAttributes::Kind::kCorridor;
-  if (kind == "polygon") return RoomAttributes::Kind::kPolygon;
-  place.fail("is none of four_walls, corridor, polygon");
+  const auto kind = roomKind(place.string());
+  if (!kind) place.fail("is none of four_walls, corridor, polygon");
+  return *kind;
 }
 
 void addKeyframe(const JsonPlace& place, LayeredGraph* graph) {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "factor_json.h"
+#include "mrpt_sgraphs/graph/room_kind.h"
 #include "mrpt_sgraphs/io/exports.h"
 
 namespace mrpt_sgraphs {
@@ -65,10 +66,9 @@ Json doorways(const RoomNode& room) {
 }
 
 Json nodeJson(const RoomNode& room, const std::vector<KeyframeId>& keyframes) {
-  constexpr const char* kKinds[] = {"four_walls", "corridor", "polygon"};
   return {{"id", room.id.value},
           {"pose", toJson(room.T_map_room)},
-          {"kind", kKinds[static_cast<int>(room.kind)]},
+          {"kind", nameOf(room.kind)},
           {"walls", listOf(room.walls)},
           {"floor", idOrNull(room.floor)},
           {"keyframes", listOf(keyframes)},

@@ -10,7 +10,7 @@
 #include "mrpt_sgraphs/factors/plane_observation.h"
 #include "mrpt_sgraphs/frontend/thinning.h"
 #include "mrpt_sgraphs/geometry/plane_frame.h"
-#include "mrpt_sgraphs/mapping/wall_colour.h"
+#include "mrpt_sgraphs/mapping/node_colour.h"
 
 namespace mrpt_sgraphs {
 namespace {

@@ -6,11 +6,22 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace mrpt_sgraphs {
 namespace {
 
 using RowMajor6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+std::vector<std::uint64_t> toMsg(const KeyframeRuns& keyframes) {
+  std::vector<std::uint64_t> msg;
+  for (const KeyframeRuns::Run& run : keyframes.runs()) {
+    msg.push_back(run.first.value);
+    msg.push_back(run.last.value);
+  }
+  return msg;
+}
 
 }  // namespace
 
@@ -135,6 +146,8 @@ OptimizationReport toMsg(const OptimizationSummary& summary, const std::string& 
   msg.floors = summary.floors;
   msg.factors = summary.factors;
   msg.free_variables = summary.free_variables;
+  msg.free_keyframes = toMsg(summary.free_keyframes);
+  msg.fixed_keyframes = toMsg(summary.fixed_keyframes);
   msg.iterations = summary.iterations;
   msg.cost_before = summary.cost_before;
   msg.cost_after = summary.cost_after;

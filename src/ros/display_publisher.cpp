@@ -11,7 +11,6 @@
 #include "mrpt_sgraphs/mapping/map_cloud.h"
 #include "mrpt_sgraphs/mapping/wall_points.h"
 #include "mrpt_sgraphs/ros/conversions.h"
-#include "mrpt_sgraphs/ros/markers.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -22,8 +21,8 @@ constexpr double kMapResolution_m = 0.1;  ///< Coarser than what is saved: it go
 
 }  // namespace
 
-DisplayPublisher::DisplayPublisher(ros::NodeHandle& nh, std::string map_frame, Source source)
-    : map_frame_(std::move(map_frame)),
+DisplayPublisher::DisplayPublisher(ros::NodeHandle& nh, GraphView view, Source source)
+    : view_(std::move(view)),
       source_(std::move(source)),
       markers_pub_(nh.advertise<visualization_msgs::MarkerArray>("markers", kQueueSize, kLatched)),
       trajectory_pub_(nh.advertise<nav_msgs::Path>("trajectory", kQueueSize, kLatched)),
@@ -43,12 +42,13 @@ void DisplayPublisher::publishMarkers() {
   const GraphSnapshotConstPtr graph = source_.graph();
   if (!graph || graph == graph_in_markers_ || markers_pub_.getNumSubscribers() == 0) return;
   graph_in_markers_ = graph;
-  markers_pub_.publish(toMarkers(*graph, map_frame_));
+  const auto optimization = source_.last_optimization();
+  markers_pub_.publish(toMarkers(*graph, view_, optimization ? &*optimization : nullptr));
 }
 
 void DisplayPublisher::publishTrajectory() {
   if (trajectory_pub_.getNumSubscribers() == 0) return;
-  trajectory_pub_.publish(toMsg(source_.trajectory(), map_frame_));
+  trajectory_pub_.publish(toMsg(source_.trajectory(), view_.map_frame));
 }
 
 void DisplayPublisher::publishMap() {
@@ -56,7 +56,7 @@ void DisplayPublisher::publishMap() {
   if (!graph || graph == graph_in_map_ || map_pub_.getNumSubscribers() == 0) return;
   graph_in_map_ = graph;
   const auto map = mapCloud(*graph, kMapResolution_m);
-  map->header.frame_id = map_frame_;
+  map->header.frame_id = view_.map_frame;
   map_pub_.publish(pcl::ros_ptr(map));
 }
 
@@ -67,7 +67,7 @@ void DisplayPublisher::publishWallPoints() {
   WallPointsConfig config;
   config.resolution_m = kMapResolution_m;
   const auto points = wallPoints(*graph, config);
-  points->header.frame_id = map_frame_;
+  points->header.frame_id = view_.map_frame;
   wall_points_pub_.publish(pcl::ros_ptr(points));
 }
 

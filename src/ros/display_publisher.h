@@ -6,10 +6,12 @@
 #include <ros/steady_timer.h>
 
 #include <functional>
-#include <string>
+#include <optional>
 
 #include "mrpt_sgraphs/graph/snapshot.h"
 #include "mrpt_sgraphs/io/tum.h"
+#include "mrpt_sgraphs/ros/markers.h"
+#include "mrpt_sgraphs/solver/optimization_summary.h"
 
 namespace mrpt_sgraphs {
 
@@ -27,9 +29,10 @@ class DisplayPublisher {
   struct Source {
     std::function<GraphSnapshotConstPtr()> graph;
     std::function<Trajectory()> trajectory;
+    std::function<std::optional<OptimizationSummary>()> last_optimization;
   };
 
-  DisplayPublisher(ros::NodeHandle& nh, std::string map_frame, Source source);
+  DisplayPublisher(ros::NodeHandle& nh, GraphView view, Source source);
 
  private:
   void publishMarkers();
@@ -37,7 +40,7 @@ class DisplayPublisher {
   void publishMap();
   void publishWallPoints();
 
-  const std::string map_frame_;
+  const GraphView view_;
   const Source source_;
   GraphSnapshotConstPtr graph_in_markers_;
   GraphSnapshotConstPtr graph_in_map_;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_publisher.h"
 
+#include <boost/make_shared.hpp>
+
 #include "mrpt_sgraphs/ros/conversions.h"
 
 namespace mrpt_sgraphs {
@@ -23,12 +25,14 @@ GraphPublisher::GraphPublisher(ros::NodeHandle& nh, const FramesConfig& frames)
       timer_(nh.createTimer(ros::Duration(kBroadcastEvery_s),
                             [this](const ros::TimerEvent&) { broadcast(); })) {}
 
-void GraphPublisher::publish(const GraphSnapshotConstPtr& graph) {
+void GraphPublisher::publish(const GraphSnapshotConstPtr& graph, std::uint32_t session) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     graph_ = graph;
   }
-  graph_pub_.publish(toMsg(*graph, map_frame_));
+  const auto msg = boost::make_shared<SituationalGraph>(toMsg(*graph, map_frame_));
+  msg->session = session;
+  graph_pub_.publish(msg);  // as a pointer, or it is serialized
   odom2map_pub_.publish(
       toMsg(graph->T_map_odom, toRosTime(graph->stamp_s), map_frame_, odom_frame_));
 }

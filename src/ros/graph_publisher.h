@@ -5,6 +5,7 @@
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <cstdint>
 #include <mutex>
 #include <string>
 
@@ -25,7 +26,7 @@ class GraphPublisher {
   GraphPublisher(ros::NodeHandle& nh, const FramesConfig& frames);
 
   /// These two may be called from any thread.
-  void publish(const GraphSnapshotConstPtr& graph);
+  void publish(const GraphSnapshotConstPtr& graph, std::uint32_t session);
   void publish(const OptimizationSummary& summary);
 
   /// The last one published, or null.

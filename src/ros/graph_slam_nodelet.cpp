@@ -4,10 +4,12 @@
 #include <ros/callback_queue.h>
 #include <ros/spinner.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <optional>
 #include <pluginlib/class_list_macros.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "cloud_trace.h"
@@ -17,8 +19,10 @@
 #include "graph_services.h"
 #include "graph_slam_thread.h"
 #include "mrpt_sgraphs/ros/conversions.h"
+#include "mrpt_sgraphs/ros/detections.h"
 #include "pipeline_nodelet.h"
 #include "stamp_matcher.h"
+#include "throttle.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -42,10 +46,14 @@ std::string rescueFolder(double last_stamp_s) {
 ///             keyframe_points  (Cloud, zero-copy)              and
 ///             keyframe_planes  (mrpt_sgraphs/KeyframePlanes)   by their stamp
 ///             scan_odometry    (mrpt_sgraphs/ScanOdometry)     for the trajectory of every scan
+///             floors           (mrpt_sgraphs/Floors)           found in the graph that it published
+///             rooms            (mrpt_sgraphs/Rooms)            likewise
 /// Publishes   see GraphPublisher and DisplayPublisher
 /// Serves      see GraphServices
-/// Parameters  loop_closure/*, walls/*, ground/*, solver/*, and for the record of a run all of SlamConfig
+/// Parameters  loop_closure/*, walls/*, ground/*, rooms/*, solver/*, and for the record of a run all of
+///             SlamConfig
 ///             frames/map, frames/odom                          FramesConfig
+///             display/*                                        DisplayConfig
 class GraphSlamNodelet final : public PipelineNodelet {
  private:
   using CloudConstPtr = boost::shared_ptr<const Cloud>;
@@ -54,11 +62,15 @@ class GraphSlamNodelet final : public PipelineNodelet {
   void start() override {
     const SlamConfig config = loadSlamConfig(getNodeHandle());
     const auto frames = section<FramesConfig>("frames");
+    const auto display = section<DisplayConfig>("display");
+    detectors_wanted_ = config.floors.enabled && config.room_detection.enabled;
     ros::NodeHandle& nh = getNodeHandle();
     publisher_ = std::make_unique<GraphPublisher>(nh, frames);
     slam_ = std::make_unique<GraphSlamThread>(
         config, GraphSlamThread::Listener{
-                    [this](const GraphSnapshotConstPtr& graph) { publisher_->publish(graph); },
+                    [this](const GraphSnapshotConstPtr& graph, std::uint32_t session) {
+                      publisher_->publish(graph, session);
+                    },
                     [this](const OptimizationSummary& summary) { onOptimization(summary); },
                     [this](const std::string& problem) { NODELET_WARN("%s", problem.c_str()); }});
 
@@ -66,9 +78,10 @@ class GraphSlamNodelet final : public PipelineNodelet {
     patient_nh.setCallbackQueue(&patient_queue_);
     services_ = std::make_unique<GraphServices>(patient_nh, *slam_, frameName(frames.map));
     display_ = std::make_unique<DisplayPublisher>(
-        patient_nh, frameName(frames.map),
+        patient_nh, GraphView{frameName(frames.map), display.layer_lift_m},
         DisplayPublisher::Source{[this] { return publisher_->graph(); },
-                                 [this] { return slam_->trajectory().get(); }});
+                                 [this] { return slam_->trajectory().get(); },
+                                 [this] { return lastOptimization(); }});
     patient_spinner_.start();
 
     diagnostics_ = std::make_unique<Diagnostics>(
@@ -77,6 +90,8 @@ class GraphSlamNodelet final : public PipelineNodelet {
     keyframe_sub_ = nh.subscribe("keyframe", kQueueSize, &GraphSlamNodelet::onKeyframe, this);
     cloud_sub_ = nh.subscribe("keyframe_points", kQueueSize, &GraphSlamNodelet::onCloud, this);
     planes_sub_ = nh.subscribe("keyframe_planes", kQueueSize, &GraphSlamNodelet::onPlanes, this);
+    floors_sub_ = nh.subscribe("floors", kQueueSize, &GraphSlamNodelet::onFloors, this);
+    rooms_sub_ = nh.subscribe("rooms", kQueueSize, &GraphSlamNodelet::onRooms, this);
   }
 
   void onScan(const ScanOdometryConstPtr& msg) {
@@ -109,6 +124,23 @@ class GraphSlamNodelet final : public PipelineNodelet {
     add(matcher_.add<2>(pcl_conversions::toPCL(msg->header.stamp), msg));
   }
 
+  void onFloors(const FloorsConstPtr& msg) {
+    takeDetection([&] { slam_->setFloors(msg->session, toFloorDetection(*msg)); });
+  }
+
+  void onRooms(const RoomsConstPtr& msg) {
+    takeDetection([&] { slam_->setRooms(msg->session, toRoomDetection(*msg), msg->detect_ms); });
+  }
+
+  template <typename Take>
+  void takeDetection(const Take& take) {
+    try {
+      take();
+    } catch (const std::invalid_argument& error) {
+      if (warning_.passes(error.what())) NODELET_WARN("Not used: %s.", error.what());
+    }
+  }
+
   void add(const std::optional<Matcher::Set>& set) {
     if (!set) return;
     const auto& [msg, cloud, planes] = *set;
@@ -124,7 +156,9 @@ class GraphSlamNodelet final : public PipelineNodelet {
     if (session > session_) {
       session_ = session;
       matcher_.clear();
-      slam_->startAgain(rescueFolder(last_stamp_s_));
+      slam_->startAgain(session, rescueFolder(last_stamp_s_));
+      const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
+      last_optimization_.reset();
     }
     return session == session_;
   }
@@ -133,6 +167,11 @@ class GraphSlamNodelet final : public PipelineNodelet {
     publisher_->publish(summary);
     const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
     last_optimization_ = summary;
+  }
+
+  std::optional<OptimizationSummary> lastOptimization() {
+    const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
+    return last_optimization_;
   }
 
   void describe(Diagnostics::Status& status) {
@@ -145,6 +184,10 @@ class GraphSlamNodelet final : public PipelineNodelet {
     } else if (matcher_.waiting() > kMaxIncomplete) {
       status.summary(Diagnostics::Status::WARN,
                      "keyframes wait for their planes: is PlaneSegmentation loaded?");
+    } else if (detectors_wanted_ &&
+               std::min(rooms_sub_.getNumPublishers(), floors_sub_.getNumPublishers()) == 0) {
+      status.summary(Diagnostics::Status::WARN,
+                     "nobody looks for rooms or floors: are RoomDetector and FloorDetector loaded?");
     } else {
       status.summary(Diagnostics::Status::OK, graph ? "the graph grows" : "no keyframe yet");
     }
@@ -152,18 +195,21 @@ class GraphSlamNodelet final : public PipelineNodelet {
     status.add("keyframes incomplete", matcher_.waiting());
     status.add("keyframes", graph ? graph->keyframes.size() : 0);
     status.add("walls", graph ? graph->walls.size() : 0);
+    status.add("rooms", graph ? graph->rooms.size() : 0);
     status.add("floors", graph ? graph->floors.size() : 0);
     status.add("factors", graph ? graph->factors.size() : 0);
-    const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
-    if (!last_optimization_) return;
-    status.add("last optimization", last_optimization_->kind);
-    status.add("last optimization, stamp", last_optimization_->stamp_s);
-    status.add("last optimization, ms", last_optimization_->total_ms);
-    status.add("last optimization, iterations", last_optimization_->iterations);
-    status.add("last optimization, converged", last_optimization_->converged);
+    const std::optional<OptimizationSummary> optimization = lastOptimization();
+    if (!optimization) return;
+    status.add("last optimization", optimization->kind);
+    status.add("last optimization, stamp", optimization->stamp_s);
+    status.add("last optimization, ms", optimization->total_ms);
+    status.add("last optimization, iterations", optimization->iterations);
+    status.add("last optimization, converged", optimization->converged);
   }
 
   Matcher matcher_;
+  Throttle warning_;
+  bool detectors_wanted_ = true;
   std::uint32_t session_ = 0;
   double last_stamp_s_ = 0.0;
   std::mutex last_optimization_mutex_;  ///< Guards the next one.
@@ -178,7 +224,9 @@ class GraphSlamNodelet final : public PipelineNodelet {
   ros::Subscriber scan_sub_;
   ros::Subscriber keyframe_sub_;
   ros::Subscriber cloud_sub_;
-  ros::Subscriber planes_sub_;  ///< Last members: no callback outlives the others.
+  ros::Subscriber planes_sub_;
+  ros::Subscriber floors_sub_;
+  ros::Subscriber rooms_sub_;  ///< Last members: no callback outlives the others.
 };
 
 }  // namespace mrpt_sgraphs

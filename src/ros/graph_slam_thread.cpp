@@ -18,9 +18,11 @@ namespace mrpt_sgraphs {
 
 /// All that was made of one run of the sensor: until its time starts again.
 struct GraphSlamThread::Session {
-  explicit Session(const SlamConfig& config) : slam(config) {}
+  Session(const SlamConfig& config, std::uint32_t number) : number(number), slam(config) {}
 
+  const std::uint32_t number;
   GraphSlam slam;
+  GraphSnapshotConstPtr told;  ///< The listener knows it.
   ScanTrajectory trajectory;
   std::vector<OptimizationSummary> optimizations;
   std::vector<ScanReport> scans;
@@ -30,7 +32,7 @@ struct GraphSlamThread::Session {
 GraphSlamThread::GraphSlamThread(const SlamConfig& config, Listener listener)
     : config_(config),
       listener_(std::move(listener)),
-      session_(std::make_unique<Session>(config)),
+      session_(std::make_unique<Session>(config, 0)),
       thread_([this] { run(); }) {}
 
 GraphSlamThread::~GraphSlamThread() {
@@ -54,26 +56,41 @@ void GraphSlamThread::addKeyframe(const Keyframe& keyframe, double segment_ms) {
     CpuStopwatch stopwatch;
     const KeyframeOutcome outcome = session_->slam.addKeyframe(keyframe);
     const double keyframe_ms = stopwatch.lap();
-    constexpr double kSameStamp_s = 1e-6;
-    const auto scan = std::find_if(
-        session_->scans.rbegin(), session_->scans.rend(), [&keyframe](const ScanReport& report) {
-          return std::abs(report.stamp_s - keyframe.stamp_s) < kSameStamp_s;
-        });
-    if (scan != session_->scans.rend()) {
+    if (ScanReport* const scan = reportOf(keyframe.stamp_s)) {
       scan->keyframe = true;
       scan->segment_ms = segment_ms;
       scan->keyframe_ms = keyframe_ms;
     }
-    listener_.on_graph(session_->slam.snapshot());
-    for (const OptimizationSummary& optimization : outcome.optimizations) {
-      session_->optimizations.push_back(optimization);
-      listener_.on_optimization(optimization);
-    }
+    tell(outcome.optimizations);
   });
 }
 
-void GraphSlamThread::startAgain(const std::string& folder) {
-  post([this, folder] {
+void GraphSlamThread::setFloors(std::uint32_t session, const FloorDetection& floors) {
+  post([this, session, floors] {
+    if (session != session_->number) return;
+    CpuStopwatch stopwatch;
+    const auto optimizations = session_->slam.setFloors(floors);
+    if (ScanReport* const scan = reportOf(floors.stamp_s)) scan->keyframe_ms += stopwatch.lap();
+    tell(optimizations);
+  });
+}
+
+void GraphSlamThread::setRooms(std::uint32_t session, const RoomDetection& rooms,
+                               double detect_ms) {
+  post([this, session, rooms, detect_ms] {
+    if (session != session_->number) return;
+    CpuStopwatch stopwatch;
+    const auto optimizations = session_->slam.setRooms(rooms);
+    if (ScanReport* const scan = reportOf(rooms.stamp_s)) {
+      scan->rooms_ms += detect_ms;
+      scan->keyframe_ms += stopwatch.lap();
+    }
+    tell(optimizations);
+  });
+}
+
+void GraphSlamThread::startAgain(std::uint32_t session, const std::string& folder) {
+  post([this, session, folder] {
     std::string fate = "nothing had been mapped";
     try {
       if (!session_->slam.snapshot()->keyframes.empty()) {
@@ -83,18 +100,16 @@ void GraphSlamThread::startAgain(const std::string& folder) {
     } catch (const std::exception& error) {
       fate = std::string("what had been mapped is lost: ") + error.what();
     }
-    session_ = std::make_unique<Session>(config_);
+    session_ = std::make_unique<Session>(config_, session);
     listener_.on_problem("A new graph begins; " + fate + ".");
-    listener_.on_graph(session_->slam.snapshot());
+    tellGraph();
   });
 }
 
 std::future<OptimizationSummary> GraphSlamThread::optimize() {
   return ask<OptimizationSummary>([this] {
     const OptimizationSummary summary = session_->slam.optimize();
-    session_->optimizations.push_back(summary);
-    listener_.on_graph(session_->slam.snapshot());
-    listener_.on_optimization(summary);
+    tell({summary});
     return summary;
   });
 }
@@ -127,6 +142,33 @@ RunRecord GraphSlamThread::recordNow() const {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - session_->started;
   record.wall_s = wall.count();
   return record;
+}
+
+/// Null for a stamp that no scan has.
+ScanReport* GraphSlamThread::reportOf(double stamp_s) {
+  constexpr double kSameStamp_s = 1e-6;
+  std::vector<ScanReport>& scans = session_->scans;
+  const auto scan = std::find_if(scans.rbegin(), scans.rend(), [stamp_s](const ScanReport& report) {
+    return std::abs(report.stamp_s - stamp_s) < kSameStamp_s;
+  });
+  return scan == scans.rend() ? nullptr : &*scan;
+}
+
+/// The graph comes last: who shows it knows then which keyframes were in the optimization.
+void GraphSlamThread::tell(const std::vector<OptimizationSummary>& optimizations) {
+  for (const OptimizationSummary& optimization : optimizations) {
+    session_->optimizations.push_back(optimization);
+    listener_.on_optimization(optimization);
+  }
+  tellGraph();
+}
+
+/// Unless nothing has changed.
+void GraphSlamThread::tellGraph() {
+  const GraphSnapshotConstPtr graph = session_->slam.snapshot();
+  if (graph == session_->told) return;
+  session_->told = graph;
+  listener_.on_graph(graph, session_->number);
 }
 
 template <typename Result>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <future>
@@ -11,9 +12,12 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
 #include "mrpt_sgraphs/io/run_writer.h"
+#include "mrpt_sgraphs/semantics/detected_room.h"
+#include "mrpt_sgraphs/semantics/floor_detector.h"
 #include "mrpt_sgraphs/slam/slam_config.h"
 
 namespace mrpt_sgraphs {
@@ -22,9 +26,10 @@ namespace mrpt_sgraphs {
 /// is asked of it is done in the order in which it came.
 class GraphSlamThread {
  public:
-  /// Both are called on the thread.
+  /// All are called on the thread.
   struct Listener {
-    std::function<void(const GraphSnapshotConstPtr&)> on_graph;  ///< After every change.
+    /// After every change, with the session that the graph is of.
+    std::function<void(const GraphSnapshotConstPtr&, std::uint32_t)> on_graph;
     std::function<void(const OptimizationSummary&)> on_optimization;
     std::function<void(const std::string&)> on_problem;  ///< One sentence.
   };
@@ -37,8 +42,14 @@ class GraphSlamThread {
   /// @param segment_ms  What its planes have cost.
   void addKeyframe(const Keyframe& keyframe, double segment_ms);
 
+  /// What was found in the graph of a session. Of one that is over, nothing is done with it.
+  void setFloors(std::uint32_t session, const FloorDetection& floors);
+  /// @param detect_ms  What it has cost.
+  void setRooms(std::uint32_t session, const RoomDetection& rooms, double detect_ms);
+
   /// Writes what there is into `folder`, so that it is not lost, and begins with an empty graph.
-  void startAgain(const std::string& folder);
+  /// @param session  The number of what begins; the first is 0.
+  void startAgain(std::uint32_t session, const std::string& folder);
 
   std::future<OptimizationSummary> optimize();
   std::future<RunRecord> record();
@@ -52,6 +63,9 @@ class GraphSlamThread {
  private:
   struct Session;
 
+  ScanReport* reportOf(double stamp_s);
+  void tell(const std::vector<OptimizationSummary>& optimizations);
+  void tellGraph();
   template <typename Result>
   std::future<Result> ask(std::function<Result()> job);
   void post(std::function<void()> job);

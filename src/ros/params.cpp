@@ -168,7 +168,7 @@ SlamConfig loadSlamConfig(const ros::NodeHandle& nh) {
 }
 
 void refuseMisspeltSections(const ros::NodeHandle& nh) {
-  std::vector<std::string> sections{"frames", "inputs"};
+  std::vector<std::string> sections{"display", "frames", "inputs"};
   SlamConfig config;
   SlamConfig::sections(config, [&](const char* name, auto&) { sections.emplace_back(name); });
   constexpr std::size_t kMaxTypos = 2;

@@ -32,6 +32,16 @@ struct InputsConfig {
   }
 };
 
+/// How the graph is shown.
+struct DisplayConfig {
+  double layer_lift_m = 10.0;  ///< Each layer so far above the one below; 0: all of it in place.
+
+  template <typename Self, typename Field>
+  static void fields(Self& self, Field&& field) {
+    field("layer_lift_m", self.layer_lift_m, 0.0, 1000.0);
+  }
+};
+
 /// tf2 knows no leading slash; old drivers and bags still write it.
 inline std::string frameName(const std::string& frame_id) {
   return !frame_id.empty() && frame_id.front() == '/' ? frame_id.substr(1) : frame_id;

@@ -5,9 +5,13 @@
 #include <geometry_msgs/Point.h>
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "mrpt_sgraphs/GraphKeyframe.h"
 #include "mrpt_sgraphs/Polygon3.h"
+#include "mrpt_sgraphs/geometry/ids.h"
 #include "mrpt_sgraphs/geometry/observed_plane.h"
 
 namespace mrpt_sgraphs {
@@ -26,16 +30,35 @@ inline Outline3 toOutline(const std::vector<geometry_msgs::Point>& points) {
   return outline;
 }
 
-/// What the messages of all surfaces have in common: `normal`, `distance`, `polygon` and `holes`.
+template <typename Layer>
+std::int64_t toIdMsg(const std::optional<Id<Layer>>& id) {
+  return id ? static_cast<std::int64_t>(id->value) : std::int64_t{GraphKeyframe::NONE};
+}
+
+template <typename Layer>
+std::vector<std::uint64_t> toIdsMsg(const std::vector<Id<Layer>>& ids) {
+  std::vector<std::uint64_t> msg;
+  msg.reserve(ids.size());
+  for (const Id<Layer> id : ids) msg.push_back(id.value);
+  return msg;
+}
+
+/// What the messages of all that has an extent have in common: `polygon` and `holes`.
 template <typename Message>
-void setSurface(const Plane& plane, const PlanarExtent& extent, Message* msg) {
-  tf2::toMsg(plane.normal, msg->normal);
-  msg->distance = plane.distance;
+void setExtent(const PlanarExtent& extent, Message* msg) {
   msg->polygon = toPoints(extent.outline);
   for (const Outline3& hole : extent.holes) {
     msg->holes.emplace_back();
     msg->holes.back().points = toPoints(hole);
   }
+}
+
+/// What the messages of all surfaces have in common: those, `normal` and `distance`.
+template <typename Message>
+void setSurface(const Plane& plane, const PlanarExtent& extent, Message* msg) {
+  tf2::toMsg(plane.normal, msg->normal);
+  msg->distance = plane.distance;
+  setExtent(extent, msg);
 }
 
 template <typename Message>

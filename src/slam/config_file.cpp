@@ -68,7 +68,7 @@ void requireMap(const YAML::Node& node, const std::string& where) {
 
 /// Sections that only the nodelets have.
 bool isForRosAlone(const std::string& section) {
-  return section == "frames" || section == "inputs";
+  return section == "display" || section == "frames" || section == "inputs";
 }
 
 }  // namespace

@@ -26,7 +26,16 @@ std::string sentence(const GaugeFreedom& freedom) {
          " directions that no factor holds";
 }
 
-OptimizationSummary summaryOf(const OptimizerReport& report, const LayeredGraph& graph) {
+KeyframeRuns keyframesOf(const std::vector<NodeId>& nodes) {
+  KeyframeRuns keyframes;
+  for (const NodeId node : nodes) {
+    if (node.layer == Layer::kKeyframe) keyframes.add(KeyframeId{node.value});
+  }
+  return keyframes;
+}
+
+OptimizationSummary summaryOf(const OptimizerReport& report, const Selection& selection,
+                              const LayeredGraph& graph) {
   OptimizationSummary summary;
   summary.kind = "full";
   summary.mode = "baseline";
@@ -40,6 +49,8 @@ OptimizationSummary summaryOf(const OptimizerReport& report, const LayeredGraph&
   summary.floors = static_cast<int>(graph.size(Layer::kFloor));
   summary.factors = report.factors;
   summary.free_variables = report.free_tangents;
+  summary.free_keyframes = keyframesOf(selection.free);
+  summary.fixed_keyframes = keyframesOf(selection.fixed);
   summary.iterations = report.iterations;
   summary.cost_before = report.cost_before;
   summary.cost_after = report.cost_after;
@@ -101,10 +112,11 @@ void GraphSlam::State::addLoops(KeyframeOutcome* outcome) {
 }
 
 OptimizationSummary GraphSlam::State::optimizeOnce() {
+  const Selection selection = selectAll(graph);
   const OptimizerReport report =
-      optimizeSelection(selectAll(graph), config.solver.optimizer, &optimizer, &graph);
+      optimizeSelection(selection, config.solver.optimizer, &optimizer, &graph);
   const uint32_t keyframes = static_cast<uint32_t>(graph.size(Layer::kKeyframe));
-  OptimizationSummary summary = summaryOf(report, graph);
+  OptimizationSummary summary = summaryOf(report, selection, graph);
   if (keyframes > 0) {
     const NodeHandle newest{Layer::kKeyframe, keyframes - 1};
     const KeyframeAttributes& attributes = graph.attributes(KeyframeId{graph.nodeAt(newest).value});

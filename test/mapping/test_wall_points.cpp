@@ -9,7 +9,7 @@
 #include <set>
 
 #include "mrpt_sgraphs/factors/plane_observation.h"
-#include "mrpt_sgraphs/mapping/wall_colour.h"
+#include "mrpt_sgraphs/mapping/node_colour.h"
 #include "mrpt_sgraphs/mapping/wall_points.h"
 
 namespace mrpt_sgraphs {

@@ -30,7 +30,7 @@ from ros_support import RosoutLog, wait_for
 FILES = ['trajectory.tum', 'odometry.tum', 'keyframes.tum', 'graph.json', 'graph.g2o', 'map.pcd',
          'optimizations.csv', 'scans.csv', 'report.json']
 INSIDE_TOPICS = ['points_filtered', 'points_deskewed', 'keyframe_points', 'keyframe',
-                 'scan_odometry', 'keyframe_decision', 'keyframe_planes']
+                 'scan_odometry', 'keyframe_decision', 'keyframe_planes', 'rooms', 'floors']
 WALL_NAMESPACES = {'walls', 'wall_outlines', 'wall_ids', 'wall_observations'}
 
 
@@ -177,7 +177,8 @@ class PipelineTest(unittest.TestCase):
         self.assertTrue(wait_for(lambda: 'optimization' in self.latest, 5.0))
 
     def test_diagnostics_name_the_nodelets(self):
-        for name in [b'sgraphs/prefilter', b'sgraphs/odometry', b'sgraphs/graph_slam']:
+        for name in [b'sgraphs/prefilter', b'sgraphs/odometry', b'sgraphs/graph_slam',
+                     b'sgraphs/room_detector', b'sgraphs/floor_detector']:
             self.assertIn(name, self.diagnostics)
 
     @classmethod
@@ -195,7 +196,7 @@ class PipelineTest(unittest.TestCase):
         trace = self.addresses()
         for topic, at_least, subscribers in [('points_filtered', 100, 1),
                                              ('points_deskewed', 100, 2),
-                                             ('keyframe_points', 5, 1), ('keyframe_planes', 5, 1)]:
+                                             ('keyframe_points', 5, 2), ('keyframe_planes', 5, 1)]:
             published = trace.get(('publish', topic), [])
             received = trace.get(('receive', topic), [])
             self.assertGreater(len(published), at_least, topic)

@@ -69,7 +69,7 @@ KeyframePlanes toMsg(const ObservedPlanesConstPtr& planes, const std_msgs::Heade
 /// observed.
 ObservedPlanesConstPtr toObservedPlanes(const KeyframePlanes& msg);
 
-/// All but the rooms.
+/// The session is left to be filled in; see toSnapshot for the way back.
 SituationalGraph toMsg(const GraphSnapshot& graph, const std::string& map_frame);
 OptimizationReport toMsg(const OptimizationSummary& summary, const std::string& map_frame);
 nav_msgs::Path toMsg(const Trajectory& trajectory, const std::string& map_frame);

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "mrpt_sgraphs/geometry/keyframe_runs.h"
+
 namespace mrpt_sgraphs {
 
 /// What one optimization did, a row of optimizations.csv.
@@ -18,6 +20,8 @@ struct OptimizationSummary {
   int floors = 0;
   int factors = 0;
   int free_variables = 0;
+  KeyframeRuns free_keyframes;   ///< Whose poses were variables.
+  KeyframeRuns fixed_keyframes;  ///< That took part and stayed where they were.
   int iterations = 0;
   double cost_before = 0.0;  ///< Sum of the weighted squared residuals, robust kernels applied.
   double cost_after = 0.0;

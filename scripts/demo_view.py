@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Turns rviz's camera to the middle of a simulated building, for the picture of the demo:
+
+    demo_view.py [--bare] rviz/sgraphs.rviz SIMULATED/truth LIFT > demo.rviz
+
+LIFT is how far above each other the layers are shown [m]. With --bare there is nothing in the window
+but the picture.
+"""
+import argparse
+import json
+import math
+import os
+import re
+import sys
+
+DISTANCE_OVER_RADIUS = 2.2  # so that a ball of that radius fills the window
+
+
+def first_pose(tum):
+    """x, y and heading of the robot where the map begins."""
+    with open(tum) as lines:
+        numbers = next(line for line in lines if not line.startswith('#')).split()
+    x, y, _, qx, qy, qz, qw = map(float, numbers[1:8])
+    return x, y, math.atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz))
+
+
+def without_panels(config):
+    config = re.sub(r'(?s)\APanels:\n.*?(?=\nPreferences:)', 'Panels: []', config)
+    return re.sub(r'\n +QMainWindow State: .*', '', config)
+
+
+def view_of(truth, lift):
+    """Of rviz's camera, by the names in its file."""
+    with open(os.path.join(truth, 'building.json')) as text:
+        building = json.load(text)
+    corners = [corner for wall in building['walls'] for corner in wall['polygon']]
+    low, high = [[bound(values) for values in zip(*corners)] for bound in (min, max)]
+    middle = [(a + b) / 2.0 for a, b in zip(low, high)]
+    height = high[2] - low[2] + 3.0 * lift  # the fourth layer is three lifts up
+    radius = math.hypot(high[0] - low[0], high[1] - low[1], height) / 2.0
+
+    x, y, heading = first_pose(os.path.join(truth, 'base_trajectory.tum'))
+    dx, dy = middle[0] - x, middle[1] - y
+    return {'X': dx * math.cos(heading) + dy * math.sin(heading),
+            'Y': dy * math.cos(heading) - dx * math.sin(heading),
+            'Z': low[2] + 0.42 * height,  # nearer things are lower in the picture
+            'Distance': DISTANCE_OVER_RADIUS * radius}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('config')
+    parser.add_argument('truth')
+    parser.add_argument('lift', type=float)
+    parser.add_argument('--bare', action='store_true')
+    given = parser.parse_args()
+    with open(given.config) as text:
+        config = text.read()
+    before, views, after = (without_panels(config) if given.bare else config).partition('\n  Views:\n')
+    for name, value in view_of(given.truth, given.lift).items():
+        after = re.sub(r'(\n +%s): .*' % name, r'\1: %.2f' % value, after, count=1)
+    sys.stdout.write(before + views + after)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+
+#include "mrpt_sgraphs/geometry/point_cloud.h"
+#include "mrpt_sgraphs/graph/snapshot.h"
+
+namespace mrpt_sgraphs {
+
+/// The clouds of the keyframes, for a graph that came as a message: without them. They are the very
+/// ones that the back end has. May be used from several threads.
+class KeyframeClouds {
+ public:
+  /// One that is not newer than the last begins anew: time has started again.
+  void add(const Cloud::ConstPtr& cloud);
+
+  /// Gives each keyframe the cloud of its stamp, leaves out those that have none, and forgets the
+  /// clouds up to the newest keyframe that are of none.
+  /// @return False if the newest keyframe has none: the graph is of another time than the clouds, and
+  ///         both stay as they are.
+  bool attachTo(GraphSnapshot* graph);
+
+ private:
+  std::mutex mutex_;                                 ///< Guards the next one.
+  std::map<std::uint64_t, Cloud::ConstPtr> clouds_;  ///< By stamp [us].
+};
+
+}  // namespace mrpt_sgraphs
