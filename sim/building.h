@@ -39,9 +39,10 @@ struct FaceRef {
   size_t edge = 0;
 };
 
-/// An opening from the floor up that joins two rooms through the wall between them.
+/// An opening from the floor up that joins two rooms through the wall between them. One at the head
+/// of a flight may join rooms of two storeys.
 struct Door {
-  size_t storey = 0;
+  size_t storey = 0;  ///< Of its floor.
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   double width_m = 0.0;
   double height_m = 0.0;
@@ -90,7 +91,8 @@ struct Person {
   std::string where;
 };
 
-/// A straight flight of stairs, and the opening above it through ceiling and floor.
+/// A straight flight of stairs, and the opening above it through ceiling and floor if it has a room
+/// above it.
 struct Flight {
   size_t lower_storey = 0;
   size_t upper_storey = 0;
@@ -134,6 +136,11 @@ struct Building {
       if (rooms[k].storey == storey && contains(rooms[k].outline, point)) return k;
     }
     return std::nullopt;
+  }
+
+  /// Whether the flight ends in a room above it, and not in one beside it, behind a door at its head.
+  bool opensAbove(const Flight& flight) const {
+    return roomAt(flight.upper_storey, 0.5 * (flight.foot + flight.head())).has_value();
   }
 };
 

@@ -27,15 +27,27 @@ void checkStoreys(const Building& building) {
   for (size_t k = 1; k < building.storeys.size(); ++k) {
     const Storey& below = building.storeys[k - 1];
     const Storey& storey = building.storeys[k];
-    if (storey.elevation_m < below.elevation_m + below.height_m) {
-      fail(storey.where,
-           "'elevation_m' of '" + storey.name + "' is below the ceiling of '" + below.name + "'");
+    if (storey.elevation_m < below.elevation_m) {
+      fail(storey.where, "'elevation_m' of '" + storey.name + "' is below '" + below.name + "'");
     }
     for (size_t j = 0; j < k; ++j) {
       if (building.storeys[j].name == storey.name) {
         fail(storey.where, "the name '" + storey.name + "' is given twice");
       }
     }
+  }
+}
+
+/// Storeys may overlap in height, as in a split level, where no room lies above the other.
+void checkAbove(const Building& building, const Room& room, const Room& other) {
+  const Room& upper = room.storey > other.storey ? room : other;
+  const Room& lower = room.storey > other.storey ? other : room;
+  const Storey& above = building.storeys[upper.storey];
+  const Storey& below = building.storeys[lower.storey];
+  if (above.elevation_m >= below.elevation_m + below.height_m) return;
+  if (gapBetween(upper.outline, lower.outline) < kMinWallThickness_m) {
+    fail(above.where, "'elevation_m' of '" + above.name + "' is below the ceiling of '" +
+                          lower.name + "', which '" + upper.name + "' overlaps");
   }
 }
 
@@ -98,8 +110,33 @@ void checkFits(const Building& building, FaceRef face, const Eigen::Vector2d& at
   }
 }
 
+/// At the head of a flight between rooms side by side: the wall of the lower room.
+std::optional<FaceRef> faceOfFlight(const Building& building, const Door& door) {
+  for (const Flight& flight : building.flights) {
+    if (flight.upper_storey != door.storey || building.opensAbove(flight)) continue;
+    if ((flight.head() - door.at).norm() > kMaxWallThickness_m) continue;
+    const std::vector<FaceRef> faces = facesNear(building, flight.lower_storey, door.at);
+    if (!faces.empty()) return faces.front();
+  }
+  return std::nullopt;
+}
+
+void checkHeight(const Building& building, const Door& door) {
+  for (const FaceRef& face : door.faces) {
+    const Storey& storey = building.storeys[building.rooms[face.room].storey];
+    const double sill_m = building.storeys[door.storey].elevation_m - storey.elevation_m;
+    if (sill_m + door.height_m >= storey.height_m) {
+      fail(door.where, "'height_m' must be less than the storey's");
+    }
+  }
+}
+
 void resolveDoor(const Building& building, Door& door) {
-  const std::vector<FaceRef> faces = facesNear(building, door.storey, door.at);
+  std::vector<FaceRef> faces = facesNear(building, door.storey, door.at);
+  if (faces.size() == 1) {
+    const std::optional<FaceRef> below = faceOfFlight(building, door);
+    if (below) faces.push_back(*below);
+  }
   if (faces.size() < 2) {
     fail(door.where, "joins " + std::to_string(faces.size()) + " rooms instead of two; 'at' must " +
                          "lie in the wall between them");
@@ -114,9 +151,7 @@ void resolveDoor(const Building& building, Door& door) {
   for (const FaceRef& face : door.faces) {
     checkFits(building, face, door.at, door.width_m, door.where);
   }
-  if (door.height_m >= building.storeys[door.storey].height_m) {
-    fail(door.where, "'height_m' must be less than the storey's");
-  }
+  checkHeight(building, door);
 }
 
 /// The stretch of a face that an opening takes.
@@ -168,9 +203,10 @@ void checkFlight(const Building& building, const Flight& flight) {
   if (flight.upper_storey != flight.lower_storey + 1) {
     fail(flight.where, "'to' must be the storey above 'from'");
   }
-  for (const size_t storey : {flight.lower_storey, flight.upper_storey}) {
-    const Polygon2 footprint = flight.footprint();
-    checkInside(building, storey, footprint, 0.5 * (flight.foot + flight.head()), flight.where);
+  const Eigen::Vector2d middle = 0.5 * (flight.foot + flight.head());
+  checkInside(building, flight.lower_storey, flight.footprint(), middle, flight.where);
+  if (building.opensAbove(flight)) {
+    checkInside(building, flight.upper_storey, flight.footprint(), middle, flight.where);
   }
 }
 
@@ -184,7 +220,10 @@ void checkRooms(const Building& building) {
     for (size_t j = 0; j < k; ++j) {
       const Room& other = building.rooms[j];
       if (other.name == room.name) fail(room.where, "the name is given twice");
-      if (other.storey != room.storey) continue;
+      if (other.storey != room.storey) {
+        checkAbove(building, room, other);
+        continue;
+      }
       const double gap_m = gapBetween(room.outline, other.outline);
       if (gap_m == 0.0) fail(room.where, "overlaps the room '" + other.name + "'");
       if (gap_m < kMinWallThickness_m) {

@@ -79,7 +79,7 @@ class ShapeMaker {
     for (const Flight& flight : building_.flights) {
       const Polygon2 footprint = flight.footprint();
       const Eigen::Vector2d middle = 0.5 * (flight.foot + flight.head());
-      if (!contains(room.outline, middle)) continue;
+      if (!contains(room.outline, middle) || !building_.opensAbove(flight)) continue;
       if (flight.upper_storey == room.storey) floor_holes.push_back(footprint);
       if (flight.lower_storey == room.storey) ceiling_holes.push_back(footprint);
     }

@@ -33,7 +33,12 @@ class TourPlanner {
  public:
   TourPlanner(const Building& building, const std::vector<FloorPlan>& plans)
       : building_(building), plans_(plans), planners_(building.rooms.size()) {
-    for (const Door& door : building.doors) links_.push_back(linkOf(door));
+    for (const Door& door : building.doors) {
+      // one at the head of a flight is part of that
+      const size_t storeys[] = {building.rooms[door.faces[0].room].storey,
+                                building.rooms[door.faces[1].room].storey};
+      if (storeys[0] == storeys[1]) links_.push_back(linkOf(door));
+    }
     for (const Flight& flight : building.flights) links_.push_back(linkOf(flight));
   }
 

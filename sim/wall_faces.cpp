@@ -38,7 +38,8 @@ std::vector<WallFace> wallFaces(const Building& building) {
     for (const FaceRef& side : door.faces) {
       WallFace& face = faces[indexOf(building, side)];
       FaceOpening opening = openingAt(face, door.at, door.width_m);
-      opening.top_m = door.height_m;
+      opening.bottom_m = building.storeys[door.storey].elevation_m - face.floor_m;
+      opening.top_m = opening.bottom_m + door.height_m;
       face.openings.push_back(opening);
     }
   }

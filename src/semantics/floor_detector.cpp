@@ -42,10 +42,10 @@ class Detection {
 
   const GraphSnapshot& graph_;
   const FloorDetectorConfig& config_;
-  std::vector<std::size_t> same_;         ///< By level: the oldest that it is one with; itself.
-  std::vector<std::size_t> levels_;       ///< By keyframe, as the graph has it; kNone.
-  std::vector<std::size_t> on_;           ///< By keyframe: the level that it stands on; kNone.
-  std::vector<double> standing_heights_m_;      ///< By level: of the base above it, usually.
+  std::vector<std::size_t> same_;           ///< By level: the oldest that it is one with; itself.
+  std::vector<std::size_t> levels_;         ///< By keyframe, as the graph has it; kNone.
+  std::vector<std::size_t> on_;             ///< By keyframe: the level that it stands on; kNone.
+  std::vector<double> standing_heights_m_;  ///< By level: of the base above it, usually.
   std::vector<std::vector<std::size_t>> ways_;  ///< By connection: the keyframes on it.
   FloorDetection detection_;
 };
@@ -224,7 +224,8 @@ bool Detection::isNear(const std::vector<std::size_t>& way, std::size_t begin,
   return false;
 }
 
-/// The keyframes [begin, end) lead from one level to another: by stairs that are known, or new ones.
+/// The keyframes [begin, end) lead from one level to another: by stairs that are known, or new
+/// ones.
 void Detection::connect(std::size_t from, std::size_t to, std::size_t begin, std::size_t end) {
   const FloorId a = graph_.floors[from].id;
   const FloorId b = graph_.floors[to].id;

@@ -62,8 +62,7 @@ void setFloorsOfKeyframes(const FloorDetection& detection, LayeredGraph* graph) 
 }
 
 Eigen::Vector3d onGround(const Plane& ground_map, const Eigen::Vector3d& point_map) {
-  return point_map -
-         (ground_map.normal.dot(point_map) - ground_map.distance) * ground_map.normal;
+  return point_map - (ground_map.normal.dot(point_map) - ground_map.distance) * ground_map.normal;
 }
 
 /// Where stairs leave a level: under that of their keyframes that is nearest to its height.

@@ -39,7 +39,11 @@ class GroundLayerTest : public ::testing::Test {
   /// A keyframe a metre along x from the last, at a height above the world's zero.
   void step(double height_m, const std::vector<ObservedPlane>& planes_at_origin,
             const Pose& slip = Pose::Identity()) {
-    const Pose T_world_base = at(height_m);
+    stepTo(at(height_m), planes_at_origin, slip);
+  }
+
+  void stepTo(const Pose& T_world_base, const std::vector<ObservedPlane>& planes_at_origin,
+              const Pose& slip = Pose::Identity()) {
     KeyframeAttributes attributes;
     attributes.stamp_s = static_cast<double>(truth_.size());
     auto planes = std::make_shared<ObservedPlanes>(planes_at_origin);
@@ -173,6 +177,39 @@ TEST_F(GroundLayerTest, TheFloorBelowTheStairsIsNotStoodOn) {
   EXPECT_EQ(graph_.size(Layer::kFloor), 2U);
   EXPECT_FALSE(floorOf(12));
   EXPECT_EQ(floorOf(29), FloorId{1});
+}
+
+/// However long the robot stands on a landing.
+TEST_F(GroundLayerTest, ALandingIsNoLevel) {
+  walkOn(0.0, 8);
+  for (int k = 1; k <= 4; ++k) step(kSensorHeight_m + 0.35 * k, {});
+  Pose landing = at(kSensorHeight_m + 1.4);
+  for (int k = 0; k < 8; ++k) {
+    const std::size_t steps = truth_.size();
+    landing.translation().x() += 0.2;
+    stepTo(landing, {levelPlane(landing, 1.4, 2.4)});
+    EXPECT_FALSE(floorOf(steps));
+  }
+  EXPECT_EQ(graph_.size(Layer::kFloor), 1U);
+}
+
+TEST_F(GroundLayerTest, TwoLevelsThatAreOneBecomeTheOlder) {
+  walkOn(0.0, 6);
+  for (int k = 0; k < 6; ++k) step(kSensorHeight_m, {}, Pose(Eigen::Translation3d(0.0, 0.0, 0.05)));
+  walkOn(0.0, 6);
+  ASSERT_EQ(graph_.size(Layer::kFloor), 2U) << "more than the odometry's covariance says";
+  ASSERT_TRUE(layer_.merge(FloorId{0}, FloorId{1}, &graph_));
+  ASSERT_EQ(graph_.size(Layer::kFloor), 1U);
+  EXPECT_FALSE(graph_.contains(FloorId{1}));
+  EXPECT_EQ(graph_.sightingsOf(FloorId{0}).size(), 12U);
+  for (std::size_t k = 12; k < 18; ++k) EXPECT_EQ(floorOf(k), FloorId{0});
+  optimizeSelection(selectAll(graph_), OptimizerConfig(), &optimizer_, &graph_);
+  EXPECT_NEAR(graph_.pose(KeyframeId{17}).translation().z(), kSensorHeight_m, 0.03);
+  walkOn(0.0, 3);
+  EXPECT_EQ(graph_.size(Layer::kFloor), 1U);
+  EXPECT_EQ(floorOf(20), FloorId{0});
+  EXPECT_FALSE(layer_.merge(FloorId{0}, FloorId{1}, &graph_)) << "it is gone";
+  EXPECT_FALSE(layer_.merge(FloorId{0}, FloorId{0}, &graph_));
 }
 
 /// A map that was begun tilted.

@@ -27,6 +27,7 @@ class WallLab {
     KeyframeAttributes attributes;
     attributes.stamp_s = static_cast<double>(truth.size());
     attributes.planes = world.observe(T_world_base, &generator_);
+    attributes.floor = floor;
     if (truth.empty()) {
       attributes.T_odom_base = T_map_world_ * T_world_base;
       graph.addKeyframe(attributes.T_odom_base, attributes);
@@ -114,7 +115,8 @@ class WallLab {
   LayeredGraph graph;
   WallLayer layer;
   WayToNewest way;
-  std::vector<Pose> truth;  ///< T_world_base of the keyframes.
+  std::vector<Pose> truth;       ///< T_world_base of the keyframes.
+  std::optional<FloorId> floor;  ///< Of the next keyframes.
   Tangent sigma = (Tangent() << 0.01, 0.01, 0.005, 0.001, 0.001, 0.002).finished();
 
  private:

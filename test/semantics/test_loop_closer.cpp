@@ -146,5 +146,65 @@ TEST_F(IdenticalRooms, MakeALoopOnceTheRobotMayHaveComeBack) {
   EXPECT_FALSE(loopsOf(walk(2.5, 0.3)).empty());
 }
 
+/// Two storeys of one plan: the second time round everything looks as it did the first time, and the
+/// odometry leaves open whether the robot has climbed.
+class TwoStoreys : public LoopCloserTest {
+ protected:
+  /// @return How many loops join keyframes of the two rounds.
+  /// @param first     Of the first round, and of the second.
+  /// @param climb_m   Between the rounds, as odometry has it.
+  /// @param sigma_m   Of the odometry's height, from keyframe to keyframe.
+  std::size_t loops(const std::optional<FloorId>& first, const std::optional<FloorId>& second,
+                    double climb_m, double sigma_m, double storey_m = 3.0) const {
+    LayeredGraph graph;
+    const FloorId ground = graph.addFloor({Eigen::Vector3d::UnitZ(), -0.5}, {});
+    const FloorId upper = graph.addFloor({Eigen::Vector3d::UnitZ(), storey_m - 0.5}, {});
+    EXPECT_EQ(ground, FloorId{0});
+    EXPECT_EQ(upper, FloorId{1});
+    LoopCloser closer({});
+    std::size_t count = 0;
+    double stamp_s = 0.0;
+    const KeyframeId second_round{round().size()};
+    for (const bool again : {false, true}) {
+      for (const KeyframeWithTruth& step : round()) {
+        Keyframe keyframe = step.keyframe;
+        keyframe.stamp_s = stamp_s += 1.0;
+        keyframe.covariance(2, 2) = sigma_m * sigma_m;
+        if (again) keyframe.T_odom_base.translation().z() += climb_m;
+        add(keyframe, &graph);
+        const KeyframeId id = graph.snapshot()->keyframes.back().id;
+        KeyframeAttributes attributes = graph.attributes(id);
+        attributes.floor = again ? second : first;
+        graph.setAttributes(id, attributes);
+        for (const LoopClosure& loop : closer.find(*graph.snapshot())) {
+          if (loop.from < second_round && !(loop.to < second_round)) ++count;
+        }
+      }
+    }
+    return count;
+  }
+};
+
+TEST_F(TwoStoreys, OnOneFloorTheSecondRoundClosesLoops) {
+  EXPECT_GT(loops(FloorId{0}, FloorId{0}, 0.05, 0.02), 0U);
+  EXPECT_GT(loops({}, {}, 0.05, 0.02), 0U);
+}
+
+TEST_F(TwoStoreys, AreNeverJoinedHoweverUncertainTheWay) {
+  // far enough for either level's keyframes to be tried and to fit
+  EXPECT_EQ(loops(FloorId{0}, FloorId{1}, 2.0, 0.5), 0U);
+  EXPECT_GT(loops(FloorId{0}, FloorId{0}, 2.0, 0.5), 0U) << "the same, but for the floors";
+}
+
+TEST_F(TwoStoreys, ThatAreAStepApartMayBeOneThatDriftHasTornApart) {
+  EXPECT_GT(loops(FloorId{0}, FloorId{1}, 0.1, 0.02, 0.1), 0U);
+}
+
+TEST_F(TwoStoreys, OfUnknownLevelGoUpOrDownByNoMoreThanTheWayLeavesOpen) {
+  // within the gate of the closed loop, which is wider
+  EXPECT_EQ(loops({}, FloorId{1}, 1.0, 0.03), 0U);
+  EXPECT_GT(loops({}, FloorId{1}, 1.0, 0.3), 0U);
+}
+
 }  // namespace
 }  // namespace mrpt_sgraphs

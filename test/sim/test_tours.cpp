@@ -97,7 +97,8 @@ TEST_P(ShippedBuilding, StartsAndEndsAtRest) {
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedBuilding,
                          ::testing::Values("small", "construction_c1f1", "construction_c1f2",
-                                           "office", "two_stairs", "two_storey", "skewed"),
+                                           "office", "split_level", "two_stairs", "two_storey",
+                                           "skewed"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(Tour, GoesStraightThroughTheMiddleOfTheDoor) {

@@ -31,11 +31,11 @@ struct WallTrack : SurfaceTrack {
   Eigen::AlignedBox3d box_map;  ///< Around the extent.
   double seen_at_m = 0.0;       ///< The way that the robot had gone at the last sighting.
   SeeThrough see_through;
-  bool is_furniture = false;    ///< Was seen over, or past its ends: never a wall.
+  bool is_furniture = false;     ///< Was seen over, or past its ends: never a wall.
   std::optional<FloorId> floor;  ///< Most keyframes that see it are on; none: no level is known.
   bool is_on_more = false;       ///< Keyframes of other levels see it too.
   StoreyCut cut;                 ///< Of the outline, not of the extent.
-  bool grown = true;            ///< Since it was last compared with the others.
+  bool grown = true;             ///< Since it was last compared with the others.
   std::optional<PlanarExtent> outline_map;  ///< Of the extent, on its grid; none after a change.
   std::set<TrackNumber> apart;              ///< What was split from it: not to be merged again.
 };

@@ -29,7 +29,8 @@ struct FloorDetection {
   double stamp_s = 0.0;  ///< Of the newest keyframe that it knows of.
   std::vector<DetectedFloor> floors;
   std::vector<DetectedConnection> connections;
-  std::vector<std::pair<FloorId, FloorId>> same;  ///< Nodes that are one level, the older one first.
+  std::vector<std::pair<FloorId, FloorId>>
+      same;  ///< Nodes that are one level, the older one first.
 };
 
 /// What belongs to which level, from heights and the way that the robot has gone.

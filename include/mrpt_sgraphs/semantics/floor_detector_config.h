@@ -8,10 +8,10 @@ namespace mrpt_sgraphs {
 /// What belongs to which level of a building.
 struct FloorDetectorConfig {
   bool enabled = true;
-  double max_off_m = 0.15;       ///< A keyframe that is farther from its usual height above ground
-                                 ///< does not stand on it,
-  double climb_off_m = 0.05;     ///< ... and one on the way to such a keyframe by this much neither.
-  double same_height_m = 0.05;   ///< Levels that are as high as each other within this
+  double max_off_m = 0.15;      ///< A keyframe that is farther from its usual height above ground
+                                ///< does not stand on it,
+  double climb_off_m = 0.05;    ///< ... and one on the way to such a keyframe by this much neither.
+  double same_height_m = 0.05;  ///< Levels that are as high as each other within this
   double same_angle_rad = 0.01;  ///< ... and as parallel are one.
   double stairs_apart_m = 3.0;   ///< Ways between two levels that come no nearer are two stairs.
 
