@@ -131,10 +131,20 @@ bool isDoorway(const RegionMap& map, const RegionMap::Opening& opening,
   return reach(map, deep, opening.centre + ahead_m * ahead, ahead) > kDeep * opening.width_m;
 }
 
+/// Rays may pass where one cannot walk: through a window, or glass in a wall that is known.
+bool isBarred(const WallLine& barrier, double along_m) {
+  constexpr double kKnees_m = 0.5;
+  constexpr double kWaist_m = 0.9;
+  return contains(barrier.extent, {along_m, kKnees_m}) ||
+         contains(barrier.extent, {along_m, kWaist_m});
+}
+
 /// An opening, and what lies between its two regions.
 struct WideOpening {
   RegionMap::Opening opening;
   std::set<int> thresholds;
+  int samples = 0;
+  int barred = 0;  ///< Of them.
 };
 
 /// Stretches of a barrier with the same regions on both sides.
@@ -155,14 +165,19 @@ std::vector<WideOpening> openingsIn(const WallLine& barrier, const FreeSpace& sp
     const bool goes_on = !openings.empty() && openings.back().opening.front == front &&
                          openings.back().opening.back == back && at_m - end_m < kSameGap_m;
     if (!goes_on) {
-      openings.push_back({{front, back, {0.0, 0.0}, 0.0}, {}});
+      openings.push_back({{front, back, {0.0, 0.0}, 0.0}, {}, 0, 0});
       begin_m = at_m;
     }
     end_m = at_m;
     openings.back().opening.centre = barrier.at(0.5 * (begin_m + end_m));
     openings.back().opening.width_m = end_m - begin_m + map.cell_m;
     openings.back().thresholds.insert(passed.begin(), passed.end());
+    ++openings.back().samples;
+    if (isBarred(barrier, at_m)) ++openings.back().barred;
   }
+  // the edges of a door are blurred, and may be barred
+  const auto is_window = [](const WideOpening& each) { return 3 * each.barred > 2 * each.samples; };
+  openings.erase(std::remove_if(openings.begin(), openings.end(), is_window), openings.end());
   return openings;
 }
 
@@ -262,13 +277,14 @@ RegionMap regionsOf(const FreeSpace& space, const std::vector<WallLine>& barrier
 
   Joined joined(map.sizes.size());
   for (const WallLine& barrier : barriers) {
-    for (const auto& [opening, thresholds] : openingsIn(barrier, space, map)) {
+    for (const WideOpening& wide : openingsIn(barrier, space, map)) {
+      const RegionMap::Opening& opening = wide.opening;
       if (isDoorway(map, opening, barrier.line.normal, max_passage_m)) {
         map.openings.push_back(opening);
         continue;
       }
       joined.join(opening.front, opening.back);
-      for (const int threshold : thresholds) joined.join(opening.front, threshold);
+      for (const int threshold : wide.thresholds) joined.join(opening.front, threshold);
     }
   }
   apply(joined, &map);

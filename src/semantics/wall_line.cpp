@@ -21,15 +21,24 @@ std::optional<WallLine> lineOf(const WallNode& wall, const Pose& T_floor_map, co
   const double level = plane.normal.head<2>().norm();
   if (std::abs(plane.normal.z()) > kMaxTilt || wall.extent_map.outline.empty()) return std::nullopt;
   const double infinity = std::numeric_limits<double>::infinity();
-  WallLine drawn{wall.id, {plane.normal.head<2>() / level, 0.0}, infinity, -infinity, -infinity};
-  const Eigen::Vector2d along = drawn.line.along();
+  WallLine drawn{wall.id, {plane.normal.head<2>() / level, 0.0}, infinity, -infinity, -infinity,
+                 {}};
+  const auto flat = [&](const Outline3& ring_map) {
+    Outline2 ring;
+    for (const Eigen::Vector3d& corner_map : ring_map) {
+      const Eigen::Vector3d corner = T_floor_map * corner_map;
+      ring.emplace_back(drawn.line.along().dot(corner.head<2>()), corner.z());
+    }
+    return ring;
+  };
+  drawn.extent.outline = flat(wall.extent_map.outline);
+  for (const Outline3& hole : wall.extent_map.holes) drawn.extent.holes.push_back(flat(hole));
   double bottom_m = infinity;
-  for (const Eigen::Vector3d& corner_map : wall.extent_map.outline) {
-    const Eigen::Vector3d corner = T_floor_map * corner_map;
-    bottom_m = std::min(bottom_m, corner.z());
-    drawn.top_m = std::max(drawn.top_m, corner.z());
-    drawn.begin_m = std::min(drawn.begin_m, along.dot(corner.head<2>()));
-    drawn.end_m = std::max(drawn.end_m, along.dot(corner.head<2>()));
+  for (const Eigen::Vector2d& corner : drawn.extent.outline) {
+    bottom_m = std::min(bottom_m, corner.y());
+    drawn.top_m = std::max(drawn.top_m, corner.y());
+    drawn.begin_m = std::min(drawn.begin_m, corner.x());
+    drawn.end_m = std::max(drawn.end_m, corner.x());
   }
   // most of the slab, as the smallest walls that one cannot look over
   const double shared_m = std::min(drawn.top_m, slab.top_m) - std::max(bottom_m, slab.bottom_m);

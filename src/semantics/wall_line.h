@@ -19,6 +19,7 @@ struct WallLine {
   double begin_m = 0.0;  ///< Along the line.
   double end_m = 0.0;
   double top_m = 0.0;  ///< Above the ground: where it was seen highest.
+  FlatExtent extent;   ///< Along the line and above the ground.
 
   Eigen::Vector2d at(double along_m) const {
     return line.distance * line.normal + along_m * line.along();

@@ -37,7 +37,8 @@ TEST(MapCloud, FollowsThePoses) {
   GraphSnapshot graph = twoViews();
   graph.keyframes.pop_back();
   graph.keyframes.edit(0).T_map_base.translation().z() = 7.0;
-  for (const Point& point : *mapCloud(graph, 0.1)) EXPECT_NEAR(point.z, 7.05F, 1e-5);
+  const Cloud::ConstPtr map = mapCloud(graph, 0.1);
+  for (const Point& point : *map) EXPECT_NEAR(point.z, 7.05F, 1e-5);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "mrpt_sgraphs/geometry/plane_frame.h"
 #include "mrpt_sgraphs/graph/layered_graph.h"
 #include "mrpt_sgraphs/semantics/detected_room.h"
 #include "support/flat_world.h"
