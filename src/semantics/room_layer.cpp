@@ -225,11 +225,16 @@ void RoomLayer::mend(LayeredGraph* graph) {
   erasures_ = graph->erasures();
   for (auto& [id, known] : known_) {
     if (!graph->contains(id) || !graph->contains(known.room.anchor)) continue;
-    DetectedRoom room = inGraph(known.room, *graph);
-    if (room.walls.size() == known.room.walls.size()) continue;
-    known.room = room;
     RoomAttributes attributes = graph->attributes(id);
+    DetectedRoom room = known.room;
+    room.floor = attributes.floor;  // another one, where two have become one
+    room = inGraph(room, *graph);
+    const bool is_whole =
+        room.walls.size() == known.room.walls.size() && room.floor == known.room.floor;
+    known.room = room;
+    if (is_whole) continue;
     attributes.walls = wallsOf(room);
+    attributes.floor = room.floor;
     graph->setAttributes(id, attributes);
     exchangeFactors(id, roomFactors(id, room, config_, exactness_, *graph), graph);
   }

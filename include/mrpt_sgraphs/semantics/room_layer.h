@@ -30,8 +30,8 @@ class RoomLayer {
   /// @return Whether factors have come or gone.
   bool update(const RoomDetection& detection, LayeredGraph* graph);
 
-  /// To be called before an optimization: what rooms knew of walls that have been erased is held by
-  /// others of their factors.
+  /// To be called before an optimization: rooms that have lost walls, or whose floor has become
+  /// another, are held by other factors.
   void mend(LayeredGraph* graph);
 
   /// How exactly the building is built, as its walls tell.
