@@ -8,6 +8,7 @@ namespace mrpt_sgraphs {
 /// What rooms do in the graph.
 struct RoomLayerConfig {
   bool factors = true;           ///< Whether rooms tie their walls to each other.
+  bool close_loops = true;       ///< Where the robot is in a room that the map has twice.
   double max_angle_rad = 0.035;  ///< Walls that are farther from a right angle have none.
   /// How exact a building is, its walls tell; none is taken for more exact than this.
   double least_right_angle_sigma_rad = 0.0002;  ///< Of walls from right angles in their room,
@@ -19,6 +20,7 @@ struct RoomLayerConfig {
   template <typename Self, typename Field>
   static void fields(Self& self, Field&& field) {
     field("factors", self.factors);
+    field("close_loops", self.close_loops);
     field("max_angle_rad", self.max_angle_rad, 0.001, 0.3);
     field("least_right_angle_sigma_rad", self.least_right_angle_sigma_rad, 1e-5, 0.1);
     field("least_upright_sigma_rad", self.least_upright_sigma_rad, 1e-5, 0.1);
