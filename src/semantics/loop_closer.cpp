@@ -209,4 +209,17 @@ std::vector<LoopClosure> LoopCloser::find(const GraphSnapshot& graph) {
   return loops;
 }
 
+std::optional<LoopClosure> LoopCloser::confirm(const GraphSnapshot& graph, KeyframeId old,
+                                               const Pose& T_old_newest) const {
+  if (!config_.enabled) return std::nullopt;
+  for (std::size_t k = 0; k + 1 < graph.keyframes.size(); ++k) {
+    if (graph.keyframes[k].id != old) continue;
+    Candidate candidate;
+    candidate.index = k;
+    candidate.T_old_new_guess = T_old_newest;
+    return verify(candidate, graph.keyframes, uncertaintyToNewest(graph)[k]);
+  }
+  return std::nullopt;
+}
+
 }  // namespace mrpt_sgraphs

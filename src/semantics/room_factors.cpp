@@ -50,16 +50,16 @@ Eigen::Matrix3d openDirections(const Eigen::Matrix3d& held) {
 class Factors {
  public:
   Factors(RoomId id, const DetectedRoom& room, const RoomLayerConfig& config,
-          const LayeredGraph& graph)
-      : id_(id), room_(room), config_(config), graph_(graph) {}
+          const RightAngles& exactness, const LayeredGraph& graph)
+      : id_(id), room_(room), config_(config), exactness_(exactness), graph_(graph) {}
 
   void addWalls() {
     const RobustKernel doubt{RobustKernel::Kind::kCauchy, config_.kernel_chi2};
-    const double upright = inverseSquare(config_.upright_sigma_rad);
+    const double upright = inverseSquare(exactness_.upright_rad);
     for (const BoundingWall& wall : room_.walls) {
       if (!graph_.contains(wall.id)) continue;
       const auto right = rightAngledAxis(wall, config_.max_angle_rad);
-      const double heading = right ? inverseSquare(config_.right_angle_sigma_rad) : 0.0;
+      const double heading = right ? inverseSquare(exactness_.right_angle_rad) : 0.0;
       const Eigen::Vector3d axis = right.value_or(wall.axis_room);
       factors_.push_back(std::make_shared<RoomWallFactor>(
           id_, wall.id, axis, directionInformation(axis, heading, upright), doubt));
@@ -85,7 +85,7 @@ class Factors {
 
   void addFloor() {
     if (!room_.floor || !graph_.contains(*room_.floor)) return;
-    const double upright = inverseSquare(config_.floor_sigma_rad);
+    const double upright = inverseSquare(exactness_.floor_rad);
     const Eigen::Vector3d information(upright, upright, inverseSquare(kCentreSigma_m));
     factors_.push_back(
         std::make_shared<FloorRoomFactor>(*room_.floor, id_, information.asDiagonal()));
@@ -121,6 +121,7 @@ class Factors {
   RoomId id_;
   const DetectedRoom& room_;
   const RoomLayerConfig& config_;
+  const RightAngles& exactness_;
   const LayeredGraph& graph_;
   std::vector<FactorConstPtr> factors_;
   Eigen::Matrix3d held_translation_ = Eigen::Matrix3d::Zero();  ///< In the room's axes,
@@ -178,8 +179,9 @@ std::optional<Eigen::Vector3d> rightAngledAxis(const BoundingWall& wall, double 
 }
 
 std::vector<FactorConstPtr> roomFactors(RoomId id, const DetectedRoom& room,
-                                        const RoomLayerConfig& config, const LayeredGraph& graph) {
-  Factors factors(id, room, config, graph);
+                                        const RoomLayerConfig& config, const RightAngles& exactness,
+                                        const LayeredGraph& graph) {
+  Factors factors(id, room, config, exactness, graph);
   if (config.factors) {
     factors.addWalls();
     factors.addCentres();

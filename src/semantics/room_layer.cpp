@@ -126,6 +126,7 @@ bool RoomLayer::update(const RoomDetection& detection, LayeredGraph* graph) {
   }
   std::vector<RoomAttributes> attributes = attributesOf(rooms, nodes, *graph);
   makeDoorwaysMutual(rooms, nodes, &attributes);
+  updateExactness(rooms, *graph);
   for (std::size_t k = 0; k < rooms.size(); ++k) {
     if (!nodes[k]) continue;
     if (bringInLine(*nodes[k], rooms[k], attributes[k], graph)) changed = true;
@@ -157,6 +158,25 @@ bool RoomLayer::eraseAllBut(const std::vector<std::optional<RoomId>>& nodes, Lay
   return !gone.empty();
 }
 
+void RoomLayer::updateExactness(const std::vector<DetectedRoom>& rooms, const LayeredGraph& graph) {
+  // it takes all sightings of all walls: not for each keyframe, but whenever walls have come or
+  // there is clearly more of them
+  constexpr double kMore = 1.1;
+  std::vector<WallId> walls;
+  for (const DetectedRoom& room : rooms) {
+    for (const BoundingWall& wall : room.walls) walls.push_back(wall.id);
+  }
+  const double keyframes = static_cast<double>(graph.size(Layer::kKeyframe));
+  if (!config_.factors || (walls == measured_walls_ && keyframes < kMore * measured_keyframes_)) {
+    return;
+  }
+  measured_walls_ = walls;
+  measured_keyframes_ = keyframes;
+  const RightAngles least{config_.least_right_angle_sigma_rad, config_.least_upright_sigma_rad,
+                          config_.least_floor_sigma_rad};
+  exactness_ = rightAnglesOf(rooms, config_.max_angle_rad, least, graph);
+}
+
 bool RoomLayer::bringInLine(RoomId id, const DetectedRoom& room, RoomAttributes attributes,
                             LayeredGraph* graph) {
   const RoomAttributes& before = graph->attributes(id);
@@ -168,7 +188,8 @@ bool RoomLayer::bringInLine(RoomId id, const DetectedRoom& room, RoomAttributes 
     known = shapeOf(room, attributes, graph->pose(id), *graph);
     graph->setAttributes(id, attributes);
   }
-  const bool changed = exchangeFactors(id, roomFactors(id, room, config_, *graph), graph);
+  const bool changed =
+      exchangeFactors(id, roomFactors(id, room, config_, exactness_, *graph), graph);
   if (changed) {
     graph->setPose(id, graph->pose(room.anchor) * room.T_anchor_room);
     known.T_room_anchor.reset();
@@ -204,13 +225,18 @@ void RoomLayer::mend(LayeredGraph* graph) {
   erasures_ = graph->erasures();
   for (auto& [id, known] : known_) {
     if (!graph->contains(id) || !graph->contains(known.room.anchor)) continue;
-    DetectedRoom room = inGraph(known.room, *graph);
-    if (room.walls.size() == known.room.walls.size()) continue;
-    known.room = room;
     RoomAttributes attributes = graph->attributes(id);
+    DetectedRoom room = known.room;
+    room.floor = attributes.floor;  // another one, where two have become one
+    room = inGraph(room, *graph);
+    const bool is_whole =
+        room.walls.size() == known.room.walls.size() && room.floor == known.room.floor;
+    known.room = room;
+    if (is_whole) continue;
     attributes.walls = wallsOf(room);
+    attributes.floor = room.floor;
     graph->setAttributes(id, attributes);
-    exchangeFactors(id, roomFactors(id, room, config_, *graph), graph);
+    exchangeFactors(id, roomFactors(id, room, config_, exactness_, *graph), graph);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "mrpt_sgraphs/hierarchy/optimize_selection.h"
 #include "mrpt_sgraphs/semantics/floor_layer.h"
 #include "mrpt_sgraphs/semantics/room_layer.h"
+#include "mrpt_sgraphs/semantics/room_reunion.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -77,7 +78,8 @@ struct GraphSlam::State {
         rooms(config.rooms) {}
 
   bool associate();
-  void addLoops(KeyframeOutcome* outcome);
+  void addLoop(const LoopClosure& loop);
+  bool reuniteRooms();
   OptimizationSummary optimizeOnce();
   void settle(bool after_loop, std::vector<OptimizationSummary>* optimizations);
 
@@ -101,14 +103,23 @@ bool GraphSlam::State::associate() {
   return grounded || walled;
 }
 
-void GraphSlam::State::addLoops(KeyframeOutcome* outcome) {
+void GraphSlam::State::addLoop(const LoopClosure& loop) {
   const RobustKernel doubt{RobustKernel::Kind::kCauchy, config.solver.loop_kernel_chi2};
-  for (const LoopClosure& loop : loop_closer.find(*graph.snapshot())) {
-    graph.addFactor(
-        std::make_shared<RelativePoseFactor>(loop.from, loop.to, loop.T_from_to, loop.information,
-                                             RelativePoseFactor::Kind::kLoopClosure, doubt));
-    ++outcome->loop_closures;
-  }
+  graph.addFactor(
+      std::make_shared<RelativePoseFactor>(loop.from, loop.to, loop.T_from_to, loop.information,
+                                           RelativePoseFactor::Kind::kLoopClosure, doubt));
+}
+
+/// Closes a loop if the newest keyframe is in a room that the map has twice.
+bool GraphSlam::State::reuniteRooms() {
+  if (!config.rooms.close_loops || !config.loop_closure.enabled) return false;
+  if (graph.size(Layer::kRoom) < 2) return false;
+  const GraphSnapshotConstPtr now = graph.snapshot();
+  const auto reunion = findReunion(*now, config.loop_closure.max_chi2);
+  if (!reunion) return false;
+  const auto loop = loop_closer.confirm(*now, reunion->keyframe, reunion->T_keyframe_newest);
+  if (loop) addLoop(*loop);
+  return loop.has_value();
 }
 
 OptimizationSummary GraphSlam::State::optimizeOnce() {
@@ -183,7 +194,10 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
   }
 
   const bool has_surfaces = state_->associate();
-  state_->addLoops(&outcome);
+  for (const LoopClosure& loop : state_->loop_closer.find(*graph.snapshot())) {
+    state_->addLoop(loop);
+    ++outcome.loop_closures;
+  }
   const bool has_loops = outcome.loop_closures > 0;
   if (has_surfaces || has_loops) state_->settle(has_loops, &outcome.optimizations);
   return outcome;
@@ -200,6 +214,7 @@ std::vector<OptimizationSummary> GraphSlam::setFloors(const FloorDetection& dete
 std::vector<OptimizationSummary> GraphSlam::setRooms(const RoomDetection& detection) {
   std::vector<OptimizationSummary> optimizations;
   if (state_->rooms.update(detection, &state_->graph)) state_->settle(false, &optimizations);
+  if (state_->reuniteRooms()) state_->settle(true, &optimizations);
   return optimizations;
 }
 

@@ -51,7 +51,8 @@ class RoomLab {
     const KeyframeId id = graph.addKeyframe(T_map_world * T_world_base, attributes);
     if (!truth.empty()) {
       const KeyframeId last{id.value - 1};
-      const Tangent sigma = (Tangent() << 0.01, 0.01, 0.01, 0.002, 0.002, 0.002).finished();
+      Tangent sigma = Tangent::Constant(0.01);
+      sigma.tail<3>().setConstant(odometry_sigma_rad);
       graph.addFactor(std::make_shared<RelativePoseFactor>(
           last, id, retract(truth.back().inverse() * T_world_base, sigma.cwiseProduct(noise<6>())),
           Matrix6(sigma.cwiseAbs2().cwiseInverse().asDiagonal())));
@@ -139,6 +140,7 @@ class RoomLab {
   std::vector<Plane> true_walls;  ///< In the world, by their ids.
   std::vector<Pose> truth;        ///< T_world_base of the keyframes.
   double sight_sigma_rad = 0.002;
+  double odometry_sigma_rad = 0.002;
 
  private:
   template <int Rows>

@@ -108,6 +108,22 @@ TEST_F(LoopCloserTest, DoesNothingWhenItIsOff) {
   EXPECT_TRUE(LoopCloser({}).find({}).empty());
 }
 
+TEST_F(LoopCloserTest, ConfirmsWhatOthersSayIfTheDriftMayBeThatLarge) {
+  for (const double sigma_m : {0.04, 0.0005}) {
+    SCOPED_TRACE(sigma_m);
+    const auto walk = round({{0.5, -0.3, 0.0}, 0.05, sigma_m, 0.2 * sigma_m});
+    LayeredGraph graph;
+    for (const KeyframeWithTruth& step : walk) add(step.keyframe, &graph);
+    const Pose T_first_last = walk.front().T_map_base.inverse() * walk.back().T_map_base;
+    Tangent error;
+    error << 0.15, -0.1, 0.0, 0.0, 0.0, 0.04;
+    const auto loop =
+        LoopCloser({}).confirm(*graph.snapshot(), KeyframeId{0}, retract(T_first_last, error));
+    EXPECT_EQ(loop.has_value(), sigma_m > 0.01);
+    if (loop) EXPECT_LT(local(T_first_last, loop->T_from_to).head<3>().norm(), 0.04);
+  }
+}
+
 /// A robot that leaves the west room and comes to one that looks exactly the same.
 class IdenticalRooms : public LoopCloserTest {
  protected:

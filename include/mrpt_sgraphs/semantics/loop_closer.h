@@ -80,6 +80,13 @@ class LoopCloser {
   /// @return The loops that passed, to be added to the graph.
   std::vector<LoopClosure> find(const GraphSnapshot& graph);
 
+  /// Verifies, as for the loops that it finds, what something else says of where the newest keyframe
+  /// is.
+  /// @param T_old_newest  Right within what a registration finds: some decimetres, some degrees.
+  /// @return The loop, if it passed.
+  std::optional<LoopClosure> confirm(const GraphSnapshot& graph, KeyframeId old,
+                                     const Pose& T_old_newest) const;
+
  private:
   struct Candidate;
 

@@ -8,6 +8,7 @@
 
 #include "mrpt_sgraphs/graph/layered_graph.h"
 #include "mrpt_sgraphs/semantics/detected_room.h"
+#include "mrpt_sgraphs/semantics/right_angles.h"
 #include "mrpt_sgraphs/semantics/room_layer_config.h"
 
 namespace mrpt_sgraphs {
@@ -22,7 +23,8 @@ std::optional<Eigen::Vector3d> rightAngledAxis(const BoundingWall& wall, double 
 ///
 /// If rooms are to have no factors, a pose from the anchor alone, which says nothing on the rest.
 std::vector<FactorConstPtr> roomFactors(RoomId id, const DetectedRoom& room,
-                                        const RoomLayerConfig& config, const LayeredGraph& graph);
+                                        const RoomLayerConfig& config, const RightAngles& exactness,
+                                        const LayeredGraph& graph);
 
 /// Makes the room's factors those that are wanted. A factor that is there and says the same, but
 /// for what the next detection may say otherwise, stays.

@@ -9,6 +9,7 @@
 
 #include "mrpt_sgraphs/graph/layered_graph.h"
 #include "mrpt_sgraphs/semantics/detected_room.h"
+#include "mrpt_sgraphs/semantics/right_angles.h"
 #include "mrpt_sgraphs/semantics/room_layer_config.h"
 
 namespace mrpt_sgraphs {
@@ -29,9 +30,12 @@ class RoomLayer {
   /// @return Whether factors have come or gone.
   bool update(const RoomDetection& detection, LayeredGraph* graph);
 
-  /// To be called before an optimization: what rooms knew of walls that have been erased is held by
-  /// others of their factors.
+  /// To be called before an optimization: rooms that have lost walls, or whose floor has become
+  /// another, are held by other factors.
   void mend(LayeredGraph* graph);
+
+  /// How exactly the building is built, as its walls tell.
+  const RightAngles& exactness() const { return exactness_; }
 
   /// To be called after an optimization: outlines and doorways follow their rooms.
   void follow(LayeredGraph* graph);
@@ -51,11 +55,15 @@ class RoomLayer {
   bool eraseAllBut(const std::vector<std::optional<RoomId>>& nodes, LayeredGraph* graph);
   bool bringInLine(RoomId id, const DetectedRoom& room, RoomAttributes attributes,
                    LayeredGraph* graph);
+  void updateExactness(const std::vector<DetectedRoom>& rooms, const LayeredGraph& graph);
   void assignKeyframes(const RoomDetection& detection,
                        const std::vector<std::optional<RoomId>>& nodes, LayeredGraph* graph) const;
 
   RoomLayerConfig config_;
   std::map<RoomId, Known> known_;
+  RightAngles exactness_;  ///< Of the building, as far as it is known, and what from:
+  std::vector<WallId> measured_walls_;
+  double measured_keyframes_ = 0.0;
   uint64_t erasures_ = 0;  ///< Of the graph, when it was last looked at.
 };
 
