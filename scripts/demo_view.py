@@ -15,7 +15,7 @@ import os
 import re
 import sys
 
-DISTANCE_OVER_RADIUS = 2.2  # so that a ball of that radius fills the window
+DISTANCE_OVER_RADIUS = 2.4  # so that a ball of that radius fills the window
 
 
 def first_pose(tum):
@@ -45,7 +45,7 @@ def view_of(truth, lift):
     dx, dy = middle[0] - x, middle[1] - y
     return {'X': dx * math.cos(heading) + dy * math.sin(heading),
             'Y': dy * math.cos(heading) - dx * math.sin(heading),
-            'Z': low[2] + 0.42 * height,  # nearer things are lower in the picture
+            'Z': low[2] + 0.44 * height,  # nearer things are lower in the picture
             'Distance': DISTANCE_OVER_RADIUS * radius}
 
 

@@ -50,9 +50,9 @@ BoundingWall toBoundingWall(const FoundWall& msg, const MessageCheck& check) {
 DetectedDoorway toDoorway(const FoundDoorway& msg, std::size_t rooms, const MessageCheck& check) {
   DetectedDoorway doorway;
   if (msg.to != GraphKeyframe::NONE) {
-    check.require(msg.to >= 0 && static_cast<std::size_t>(msg.to) < rooms,
-                  "a doorway leads to room " + std::to_string(msg.to) + " of " +
-                      std::to_string(rooms));
+    check.require(
+        msg.to >= 0 && static_cast<std::size_t>(msg.to) < rooms,
+        "a doorway leads to room " + std::to_string(msg.to) + " of " + std::to_string(rooms));
     doorway.to = static_cast<std::size_t>(msg.to);
   }
   doorway.centre_anchor = check.point(msg.centre, "a doorway");

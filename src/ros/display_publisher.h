@@ -21,7 +21,7 @@ namespace mrpt_sgraphs {
 /// Publishes  markers     (visualization_msgs/MarkerArray, latched)  the layers, every second
 ///            trajectory  (nav_msgs/Path, latched)                   every scan, every second
 ///            map_points  (sensor_msgs/PointCloud2, latched)         decimated, every three seconds
-///            wall_points (sensor_msgs/PointCloud2, latched)         in the walls' colours, as often
+///            wall_points (sensor_msgs/PointCloud2, latched)         the same, coloured by walls
 /// All but the trajectory only if the graph changed.
 class DisplayPublisher {
  public:

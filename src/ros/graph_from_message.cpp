@@ -61,8 +61,7 @@ FloorNode toNode(const GraphFloor& msg, const MessageCheck& check) {
   node.ground_map = check.plane(msg);
   node.centre_map = check.point(msg.centre, "its centre");
   for (const GraphFloorConnection& line : msg.connections) {
-    node.connections.push_back({check.id<FloorId>(line.to),
-                                check.point(line.here, "a connection"),
+    node.connections.push_back({check.id<FloorId>(line.to), check.point(line.here, "a connection"),
                                 check.point(line.there, "a connection")});
   }
   return node;

@@ -46,12 +46,12 @@ std::string rescueFolder(double last_stamp_s) {
 ///             keyframe_points  (Cloud, zero-copy)              and
 ///             keyframe_planes  (mrpt_sgraphs/KeyframePlanes)   by their stamp
 ///             scan_odometry    (mrpt_sgraphs/ScanOdometry)     for the trajectory of every scan
-///             floors           (mrpt_sgraphs/Floors)           found in the graph that it published
+///             floors           (mrpt_sgraphs/Floors)           found in graphs of ours
 ///             rooms            (mrpt_sgraphs/Rooms)            likewise
 /// Publishes   see GraphPublisher and DisplayPublisher
 /// Serves      see GraphServices
-/// Parameters  loop_closure/*, walls/*, ground/*, rooms/*, solver/*, and for the record of a run all of
-///             SlamConfig
+/// Parameters  loop_closure/*, walls/*, ground/*, rooms/*, solver/*, and for the record of a run
+///             all of SlamConfig
 ///             frames/map, frames/odom                          FramesConfig
 ///             display/*                                        DisplayConfig
 class GraphSlamNodelet final : public PipelineNodelet {
@@ -186,8 +186,9 @@ class GraphSlamNodelet final : public PipelineNodelet {
                      "keyframes wait for their planes: is PlaneSegmentation loaded?");
     } else if (detectors_wanted_ &&
                std::min(rooms_sub_.getNumPublishers(), floors_sub_.getNumPublishers()) == 0) {
-      status.summary(Diagnostics::Status::WARN,
-                     "nobody looks for rooms or floors: are RoomDetector and FloorDetector loaded?");
+      status.summary(
+          Diagnostics::Status::WARN,
+          "nobody looks for rooms or floors: are RoomDetector and FloorDetector loaded?");
     } else {
       status.summary(Diagnostics::Status::OK, graph ? "the graph grows" : "no keyframe yet");
     }

@@ -20,7 +20,7 @@ class KeyframeClouds {
 
   /// Gives each keyframe the cloud of its stamp, leaves out those that have none, and forgets the
   /// clouds up to the newest keyframe that are of none.
-  /// @return False if the newest keyframe has none: the graph is of another time than the clouds, and
+  /// @return False if the newest keyframe has none: the graph is of another time than the clouds,
   ///         both stay as they are.
   bool attachTo(GraphSnapshot* graph);
 

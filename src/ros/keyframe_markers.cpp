@@ -40,8 +40,8 @@ void addKeyframeMarkers(const GraphSnapshot& graph, const ShownPlaces& places,
   Marker loops =
       layer("loop_closures", Marker::LINE_LIST, kLoop_m, colour(0.9F, 0.1F, 0.1F), map_frame);
   for (const KeyframeNode& node : graph.keyframes) {
-    (node.marginalized ? marginalized : keyframes).points.push_back(
-        tf2::toMsg(*places.find(node.id)));
+    (node.marginalized ? marginalized : keyframes)
+        .points.push_back(tf2::toMsg(*places.find(node.id)));
   }
   for (const StoredFactor& stored : graph.factors) {
     const RelativePoseFactor* const edge = keyframeEdge(*stored.factor);
@@ -57,10 +57,10 @@ void addKeyframeMarkers(const GraphSnapshot& graph, const ShownPlaces& places,
 void addOptimizationMarkers(const GraphSnapshot& graph, const ShownPlaces& places,
                             const OptimizationSummary& optimization, const std::string& map_frame,
                             visualization_msgs::MarkerArray* markers) {
-  Marker free = layer("free_keyframes", Marker::LINE_LIST, kBoxLine_m, colour(0.1F, 0.6F, 0.2F),
-                      map_frame);
-  Marker fixed = layer("fixed_keyframes", Marker::LINE_LIST, kBoxLine_m, colour(0.1F, 0.3F, 0.9F),
-                       map_frame);
+  Marker free =
+      layer("free_keyframes", Marker::LINE_LIST, kBoxLine_m, colour(0.1F, 0.6F, 0.2F), map_frame);
+  Marker fixed =
+      layer("fixed_keyframes", Marker::LINE_LIST, kBoxLine_m, colour(0.1F, 0.3F, 0.9F), map_frame);
   for (const KeyframeNode& node : graph.keyframes) {
     if (optimization.free_keyframes.contains(node.id)) addBox(*places.find(node.id), &free);
     if (optimization.fixed_keyframes.contains(node.id)) addBox(*places.find(node.id), &fixed);

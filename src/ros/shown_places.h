@@ -10,7 +10,7 @@
 namespace mrpt_sgraphs {
 
 /// Where the nodes of a graph are shown, in `map`: keyframes where they are, walls at the middle of
-/// their extents, rooms and floors above their centres; each layer a lift higher than the one below.
+/// their extents, rooms and floors above their centres; each layer a lift above the one below.
 class ShownPlaces {
  public:
   ShownPlaces(const GraphSnapshot& graph, double layer_lift_m);

@@ -158,7 +158,8 @@ class RoomsTest(unittest.TestCase):
 
     def test_zz_rooms_that_are_none_are_refused_with_a_sentence(self):
         publisher = rospy.Publisher('/sgraphs/rooms', Rooms, queue_size=1)
-        wait_for(lambda: publisher.get_num_connections() > 0, 5.0)
+        connections = 2  # the back end's, and our own
+        self.assertTrue(wait_for(lambda: publisher.get_num_connections() == connections, 5.0))
         message = self.received['rooms'][-1]
         message.rooms[0].kind = 'hall'
         publisher.publish(message)

@@ -23,8 +23,8 @@ inline GraphSnapshot twoRoomsOnTwoFloors() {
   room.id = RoomId{2};
   room.name = "room 2";
   room.kind = RoomAttributes::Kind::kFourWalls;
-  room.T_map_room = Eigen::Translation3d(1.0, 0.0, -0.5) *
-                    Pose(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
+  room.T_map_room =
+      Eigen::Translation3d(1.0, 0.0, -0.5) * Pose(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
   room.walls = {WallId{4}, WallId{9}};
   room.floor = FloorId{0};
   room.size_m << 4.0, 3.0;

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mrpt_sgraphs/ros/detections.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <string>
 
 #include "mrpt_sgraphs/ros/conversions.h"
+#include "mrpt_sgraphs/ros/detections.h"
 #include "some_rooms.h"
 
 namespace mrpt_sgraphs {

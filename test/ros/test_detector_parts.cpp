@@ -40,7 +40,9 @@ TEST(NewestWorker, SkipsWhatIsOlderThanTheNewestWhileItWorks) {
 }
 
 TEST(NewestWorker, EndsWhetherItEverHadAJobOrNot) {
-  { NewestWorker<int> idle([](const int&) {}); }
+  {
+    NewestWorker<int> idle([](const int&) {});
+  }
   std::promise<void> begun;
   std::vector<int> worked_on;
   {

@@ -155,19 +155,19 @@ class LayeredMarkers : public ::testing::TestWithParam<double> {
 TEST_P(LayeredMarkers, EveryLayerIsALiftAboveTheOneBelow) {
   const Eigen::Vector3d lift = GetParam() * Eigen::Vector3d::UnitZ();
   const auto in_place = markersOf(graph_, 0.0);
-  for (const auto& [name, layers] : std::vector<std::pair<const char*, int>>{
-           {"keyframes", 0},
-           {"marginalized_keyframes", 0},
-           {"odometry", 0},
-           {"walls", 1},
-           {"wall_outlines", 1},
-           {"rooms", 2},
-           {"room_areas", 2},
-           {"room_outlines", 2},
-           {"doorways", 2},
-           {"room_doorways", 2},
-           {"floors", 3},
-           {"floor_connections", 3}}) {
+  for (const auto& [name, layers] :
+       std::vector<std::pair<const char*, int>>{{"keyframes", 0},
+                                                {"marginalized_keyframes", 0},
+                                                {"odometry", 0},
+                                                {"walls", 1},
+                                                {"wall_outlines", 1},
+                                                {"rooms", 2},
+                                                {"room_areas", 2},
+                                                {"room_outlines", 2},
+                                                {"doorways", 2},
+                                                {"room_doorways", 2},
+                                                {"floors", 3},
+                                                {"floor_connections", 3}}) {
     SCOPED_TRACE(name);
     const auto before = placesIn(name, in_place);
     const auto after = placesIn(name, markers_);

@@ -9,8 +9,8 @@
 
 namespace mrpt_sgraphs {
 
-/// Red, green and blue from 0 to 1, the same for a wall or a room for ever. The hue goes round by the
-/// golden ratio, so that those that were found one after the other look different.
+/// Red, green and blue from 0 to 1, the same for a wall or a room for ever. The hue goes round by
+/// the golden ratio, so that those that were found one after the other look different.
 Eigen::Vector3f colourOf(NodeId node);
 
 }  // namespace mrpt_sgraphs

@@ -18,13 +18,13 @@ struct GraphView {
 };
 
 /// The graph to look at, all that was shown before replaced. The keyframes are where they are;
-/// walls, rooms and floors hover above, each layer a lift higher, and what joins two layers is drawn
-/// from where the one end is shown to where the other is. What there is to see has a namespace each,
-/// so that rviz can switch it:
+/// walls, rooms and floors hover above, each layer a lift higher, and what joins two layers is
+/// drawn from where the one end is shown to where the other is. What there is to see has a
+/// namespace each, so that rviz can switch it:
 ///
 ///   keyframes, marginalized_keyframes      black and red spheres
 ///   odometry, loop_closures                grey and red lines
-///   free_keyframes, fixed_keyframes        green and blue boxes around those of the last optimization
+///   free_keyframes, fixed_keyframes        green and blue boxes: the last optimization
 ///   walls, wall_outlines, wall_ids         in colours of their own, with their doors
 ///   wall_observations                      from the keyframes to the walls that they see
 ///   rooms, room_names, room_areas, room_outlines     nodes, and the ground of each
