@@ -54,6 +54,13 @@ class PlanLab {
     attributes.floor = floor_;
     attributes.extent_map.outline = {corner(face.b, ground_m_), corner(face.a, ground_m_),
                                      corner(face.a, top_m), corner(face.b, top_m)};
+    for (const auto& [from_m, to_m] : face.doors) {
+      const Eigen::Vector2d from = face.a + from_m * face.along();
+      const Eigen::Vector2d to = face.a + to_m * face.along();
+      attributes.extent_map.holes.push_back({corner(to, ground_m_), corner(from, ground_m_),
+                                             corner(from, ground_m_ + kDoor_m),
+                                             corner(to, ground_m_ + kDoor_m)});
+    }
     graph.addWall(T_map_world * face.plane(), attributes);
   }
 
