@@ -146,30 +146,36 @@ struct FaceCost {
   double outside = 0.0;
 };
 
+/// Where a convex outline cuts the level line at y: from, to; none: to is not above from.
+std::pair<double, double> spanAt(const Outline2& corners, double y) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::pair<double, double> span{infinity, -infinity};
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Eigen::Vector2d& a = corners[k];
+    const Eigen::Vector2d& b = corners[(k + 1) % corners.size()];
+    if ((a.y() < y) == (b.y() < y)) continue;
+    const double x = a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    span = {std::min(span.first, x), std::max(span.second, x)};
+  }
+  return span;
+}
+
 FaceCost costOf(const LineArrangement::Face& face, const RegionMap& map, int region,
                 const FreeSpace& space) {
   constexpr double kUnknown = 0.3;   // next to nothing is known of it
   constexpr double kOccupied = 0.1;  // furniture, or the wall itself
-  Eigen::Vector2d low = face.corners.front();
-  Eigen::Vector2d high = low;
-  for (const Eigen::Vector2d& corner : face.corners) {
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
-  }
-  FaceCost cost;
-  const CellBox box{cellAt(low, map.cell_m), cellAt(high, map.cell_m)};
   const double cell_m2 = map.cell_m * map.cell_m;
-  for (Cell cell = box.min; cell.row <= box.max.row; ++cell.row) {
-    for (cell.column = box.min.column; cell.column <= box.max.column; ++cell.column) {
-      const Eigen::Vector2d centre =
-          map.cell_m * Eigen::Vector2d(cell.column + 0.5, cell.row + 0.5);
-      bool is_inside = true;
-      for (std::size_t k = 0; k < face.corners.size() && is_inside; ++k) {
-        const Eigen::Vector2d edge = face.corners[(k + 1) % face.corners.size()] - face.corners[k];
-        const Eigen::Vector2d to = centre - face.corners[k];
-        is_inside = edge.x() * to.y() - edge.y() * to.x() >= 0.0;
-      }
-      if (!is_inside) continue;
+  const auto by_y = [](const auto& a, const auto& b) { return a.y() < b.y(); };
+  const auto [low, high] = std::minmax_element(face.corners.begin(), face.corners.end(), by_y);
+  FaceCost cost;
+  Cell cell = cellAt(*low, map.cell_m);
+  for (const int last_row = cellAt(*high, map.cell_m).row; cell.row <= last_row; ++cell.row) {
+    // the cells whose centres are inside
+    const auto [from, to] = spanAt(face.corners, (cell.row + 0.5) * map.cell_m);
+    if (!(to > from)) continue;
+    const int end = static_cast<int>(std::ceil(to / map.cell_m - 0.5));
+    for (cell.column = static_cast<int>(std::ceil(from / map.cell_m - 0.5)); cell.column < end;
+         ++cell.column) {
       const int there = map.region.valueOr(cell, RegionMap::kNone);
       if (there == region) {
         cost.outside += cell_m2;
