@@ -125,7 +125,8 @@ void FreeSpace::count(const Cloud& cloud_base, const Pose& T_floor_base, float s
   marks_.assign(static_cast<std::size_t>(window_.columns()) *
                     static_cast<std::size_t>(window_.rows()) * static_cast<std::size_t>(layers_),
                 Mark::kNone);
-  const std::size_t stride = cloud_base.size() / static_cast<std::size_t>(config_.max_rays) + 1;
+  // odd: clouds may be in the order of firings, whose rings are a power of two
+  const std::size_t stride = (cloud_base.size() / static_cast<std::size_t>(config_.max_rays)) | 1U;
   for (std::size_t k = 0; k < cloud_base.size(); k += stride) {
     const Eigen::Vector3f point = R * cloud_base[k].getVector3fMap() + t;
     const float distance = (point - sensor).norm();

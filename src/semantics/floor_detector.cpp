@@ -67,12 +67,15 @@ std::size_t Detection::levelOf(FloorId id) const {
 
 /// Of the keyframes of two levels: half-way between the two that are nearest to each other in plan.
 Eigen::Vector3d Detection::whereNearest(std::size_t a, std::size_t b) const {
+  // of very many, some are as good
+  constexpr std::size_t kEnough = 1000;
+  const std::size_t stride = levels_.size() / kEnough + 1;
   Eigen::Vector3d best = 0.5 * (graph_.floors[a].centre_map + graph_.floors[b].centre_map);
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < levels_.size(); ++i) {
+  for (std::size_t i = 0; i < levels_.size(); i += stride) {
     if (levels_[i] != a) continue;
     const Eigen::Vector3d one = graph_.keyframes[i].T_map_base.translation();
-    for (std::size_t j = 0; j < levels_.size(); ++j) {
+    for (std::size_t j = 0; j < levels_.size(); j += stride) {
       if (levels_[j] != b) continue;
       const Eigen::Vector3d other = graph_.keyframes[j].T_map_base.translation();
       const double apart = (one - other).head<2>().squaredNorm();

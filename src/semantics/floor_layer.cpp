@@ -18,8 +18,8 @@ using FloorOfKeyframe = std::map<KeyframeId, FloorId>;
 /// Only where it is another one: what is not written stays shared with the snapshots.
 template <typename NodeIdType>
 void setFloor(NodeIdType id, const std::optional<FloorId>& floor, LayeredGraph* graph) {
+  if (graph->attributes(id).floor == floor) return;
   auto attributes = graph->attributes(id);
-  if (attributes.floor == floor) return;
   attributes.floor = floor;
   graph->setAttributes(id, attributes);
 }
@@ -135,7 +135,7 @@ bool updateFloors(const FloorDetection& detection, GroundLayer* ground, LayeredG
     const auto found = connections.find(floor.id);
     attributes.connections =
         found == connections.end() ? std::vector<FloorConnection>() : found->second;
-    graph->setAttributes(floor.id, attributes);
+    if (!(attributes == graph->attributes(floor.id))) graph->setAttributes(floor.id, attributes);
   }
   return changed;
 }

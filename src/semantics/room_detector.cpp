@@ -3,8 +3,9 @@
 
 #include "mrpt_sgraphs/semantics/room_detector.h"
 
-#include <algorithm>
+#include <iterator>
 #include <map>
+#include <set>
 
 #include "storey_rooms.h"
 
@@ -52,6 +53,12 @@ RoomDetection RoomDetector::detect(const GraphSnapshot& graph) {
     } else {
       passing.push_back(&keyframe);
     }
+  }
+  std::set<FloorId> present;
+  for (const FloorNode& floor : graph.floors) present.insert(floor.id);
+  for (auto storey = state_->storeys.begin(); storey != state_->storeys.end();) {
+    const bool is_gone = present.count(storey->first) == 0;
+    storey = is_gone ? state_->storeys.erase(storey) : std::next(storey);
   }
   for (const FloorNode& floor : graph.floors) {
     const auto storey = state_->storeys.try_emplace(floor.id, state_->config, floor.id).first;

@@ -70,12 +70,13 @@ Support supportOf(const CellSet& edge, const std::vector<WallLine>& barriers, do
   return support;
 }
 
-bool isSameLine(const Line2& a, const Line2& b, const Eigen::Vector2d& near) {
+/// Whether two lines are one between two points of the second.
+bool isSameLine(const Line2& a, const Line2& b, const Eigen::Vector2d& from,
+                const Eigen::Vector2d& to) {
   constexpr double kSame_m = 0.08;
-  constexpr double kSame_rad = 0.05;
-  const double cosine = a.normal.dot(b.normal);
-  if (std::abs(cosine) < std::cos(kSame_rad)) return false;
-  return std::abs(a.heightOf(near) - std::copysign(1.0, cosine) * b.heightOf(near)) < kSame_m;
+  const double side = std::copysign(1.0, a.normal.dot(b.normal));
+  return std::abs(a.heightOf(from) - side * b.heightOf(from)) < kSame_m &&
+         std::abs(a.heightOf(to) - side * b.heightOf(to)) < kSame_m;
 }
 
 /// A line through the edges of the free space where no wall is near.
@@ -104,10 +105,21 @@ void addFreeEdges(const CellSet& region_cells, const CellSet& free_edge, double 
     }
     if (free < kFreeShare * samples) continue;
     const Line2 line{inward, inward.dot(from)};
-    const Eigen::Vector2d middle = from + 0.5 * way;
-    const bool is_known = std::any_of(plan->lines.begin(), plan->lines.end(),
-                                      [&](const Line2& l) { return isSameLine(l, line, middle); });
+    const bool is_known = std::any_of(plan->lines.begin(), plan->lines.end(), [&](const Line2& l) {
+      return isSameLine(l, line, from, from + way);
+    });
     if (is_known) continue;
+    plan->lines.push_back(line);
+    plan->barriers.emplace_back();
+  }
+}
+
+/// The box around the region: nothing of it lies in a face without an end, however ragged its edge.
+void addBox(const CellBox& box, double cell_m, Plan* plan) {
+  const Eigen::Vector2d low = cell_m * Eigen::Vector2d(box.min.column, box.min.row);
+  const Eigen::Vector2d high = cell_m * Eigen::Vector2d(box.max.column + 1, box.max.row + 1);
+  for (const Line2& line : {Line2{{1.0, 0.0}, low.x()}, Line2{{-1.0, 0.0}, -high.x()},
+                            Line2{{0.0, 1.0}, low.y()}, Line2{{0.0, -1.0}, -high.y()}}) {
     plan->lines.push_back(line);
     plan->barriers.emplace_back();
   }
@@ -118,13 +130,23 @@ Plan planOf(const RegionMap& map, const CellSet& cells, const CellSet& edge,
   constexpr double kSupport_m = 0.5;
   Plan plan;
   const Support support = supportOf(edge, barriers, map.cell_m);
+  // the longest first: of walls nearly in one line, its line is the one that is known best
+  std::vector<std::size_t> order;
   for (std::size_t k = 0; k < barriers.size(); ++k) {
+    const double length_m = barriers[k].end_m - barriers[k].begin_m;
+    if (support.length_m[k] >= std::min(kSupport_m, 0.5 * length_m)) order.push_back(k);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return support.length_m[a] > support.length_m[b];
+  });
+  for (const std::size_t k : order) {
     const WallLine& barrier = barriers[k];
-    const double length_m = barrier.end_m - barrier.begin_m;
-    if (support.length_m[k] < std::min(kSupport_m, 0.5 * length_m)) continue;
-    const Eigen::Vector2d middle = barrier.at(0.5 * (barrier.begin_m + barrier.end_m));
     std::size_t line = 0;
-    while (line < plan.lines.size() && !isSameLine(plan.lines[line], barrier.line, middle)) ++line;
+    while (line < plan.lines.size() &&
+           !isSameLine(plan.lines[line], barrier.line, barrier.at(barrier.begin_m),
+                       barrier.at(barrier.end_m))) {
+      ++line;
+    }
     if (line == plan.lines.size()) {
       plan.lines.push_back(barrier.line);
       plan.barriers.emplace_back();
@@ -132,6 +154,7 @@ Plan planOf(const RegionMap& map, const CellSet& cells, const CellSet& edge,
     plan.barriers[line].push_back(k);
   }
   addFreeEdges(cells, support.free_edge, map.cell_m, &plan);
+  addBox(cells.box(), map.cell_m, &plan);
   constexpr int kMargin = 5;
   const CellBox box = cells.box().grown(kMargin);
   plan.arrangement =
@@ -216,6 +239,39 @@ double boundedLength(const LineArrangement::Border& border, bool in_front, const
   return length_m;
 }
 
+/// Only those that hang together with the one that most of the region lies in.
+std::vector<bool> largestPart(const LineArrangement& arrangement,
+                              const std::vector<double>& region_m2,
+                              const std::vector<bool>& is_inside) {
+  std::vector<bool> part(is_inside.size(), false);
+  std::vector<bool> best = part;
+  double most_m2 = 0.0;
+  for (std::size_t seed = 0; seed < is_inside.size(); ++seed) {
+    if (!is_inside[seed] || part[seed]) continue;
+    std::vector<bool> reached(is_inside.size(), false);
+    reached[seed] = true;
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (const LineArrangement::Border& border : arrangement.borders) {
+        if (reached[border.front] == reached[border.back]) continue;
+        if (!is_inside[border.front] || !is_inside[border.back]) continue;
+        reached[border.front] = reached[border.back] = true;
+        grows = true;
+      }
+    }
+    double area_m2 = 0.0;
+    for (std::size_t f = 0; f < reached.size(); ++f) {
+      if (!reached[f]) continue;
+      part[f] = true;
+      area_m2 += region_m2[f];
+    }
+    if (area_m2 <= most_m2) continue;
+    most_m2 = area_m2;
+    best = reached;
+  }
+  return best;
+}
+
 }  // namespace
 
 RoomOutline roomOutlineOf(const RegionMap& map, int region, const FreeSpace& space,
@@ -227,12 +283,14 @@ RoomOutline roomOutlineOf(const RegionMap& map, int region, const FreeSpace& spa
   constexpr double kOpen_m = 0.5;  // what a metre of outline without a wall costs [m^2]
   const double certain = std::numeric_limits<double>::max();
   MinCut cut(plan.arrangement.faces.size());
+  std::vector<double> region_m2;
   for (std::size_t f = 0; f < plan.arrangement.faces.size(); ++f) {
     const LineArrangement::Face& face = plan.arrangement.faces[f];
     const FaceCost cost = costOf(face, map, region, space);
     const bool is_border =
         std::count(face.lines.begin(), face.lines.end(), LineArrangement::kFrame) > 0;
     cut.setCosts(f, is_border ? certain : cost.inside, cost.outside);
+    region_m2.push_back(cost.outside);
   }
   for (const LineArrangement::Border& border : plan.arrangement.borders) {
     const double length_m = border.end - border.begin;
@@ -241,7 +299,7 @@ RoomOutline roomOutlineOf(const RegionMap& map, int region, const FreeSpace& spa
     cut.addBorder(border.front, border.back, kOpen_m * (length_m - front_m),
                   kOpen_m * (length_m - back_m));
   }
-  const std::vector<bool> is_inside = cut.solve();
+  const std::vector<bool> is_inside = largestPart(plan.arrangement, region_m2, cut.solve());
 
   RoomOutline outline;
   std::vector<double> on_wall_m(walls.size(), 0.0);

@@ -23,15 +23,26 @@ double headingOf(const Outline2& outline) {
   return 0.25 * std::arg(sum);
 }
 
-/// Long and narrow, also round corners: the strip that has the same area and outline is.
-bool isCorridor(const Outline2& outline) {
+double lengthOf(const Outline2& ring) {
+  double length_m = 0.0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    length_m += (ring[(k + 1) % ring.size()] - ring[k]).norm();
+  }
+  return length_m;
+}
+
+/// Long and narrow, also round corners and round a core: the strip that has the same area and
+/// outline is.
+bool isCorridor(const FlatExtent& extent) {
   constexpr double kWidest_m = 3.2;
   constexpr double kShortest = 2.5;  // times as long as wide
-  double length_m = 0.0;
-  for (std::size_t k = 0; k < outline.size(); ++k) {
-    length_m += (outline[(k + 1) % outline.size()] - outline[k]).norm();
+  double length_m = lengthOf(extent.outline);
+  double area_m2 = signedArea(extent.outline);
+  for (const Outline2& hole : extent.holes) {
+    length_m += lengthOf(hole);
+    area_m2 -= signedArea(hole);
   }
-  const double square = length_m * length_m - 16.0 * std::abs(signedArea(outline));
+  const double square = length_m * length_m - 16.0 * area_m2;
   const double root = std::sqrt(std::max(0.0, square));
   const double width_m = 0.25 * (length_m - root);
   const double strip_m = 0.25 * (length_m + root);
@@ -62,7 +73,7 @@ RoomShape shapeOf(const FlatExtent& extent) {
     std::swap(shape.size_m.x(), shape.size_m.y());
     shape.heading_rad += 0.5 * M_PI;
   }
-  if (isCorridor(extent.outline)) {
+  if (isCorridor(extent)) {
     shape.kind = RoomAttributes::Kind::kCorridor;
   } else if (isRectangle(extent, shape.size_m)) {
     shape.kind = RoomAttributes::Kind::kFourWalls;
@@ -71,13 +82,7 @@ RoomShape shapeOf(const FlatExtent& extent) {
 }
 
 Eigen::Vector3d axisOf(const WallLine& wall, const RoomShape& shape) {
-  constexpr double kNearly = 0.985;  // cosine of 10 degrees
   const Eigen::Vector2d normal = Eigen::Rotation2Dd(-shape.heading_rad) * wall.line.normal;
-  for (const Eigen::Vector3d& axis :
-       {Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d(-1.0, 0.0, 0.0),
-        Eigen::Vector3d(0.0, 1.0, 0.0), Eigen::Vector3d(0.0, -1.0, 0.0)}) {
-    if (axis.head<2>().dot(normal) > kNearly) return axis;
-  }
   return {normal.x(), normal.y(), 0.0};
 }
 

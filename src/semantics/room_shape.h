@@ -18,7 +18,7 @@ struct RoomShape {
 
 RoomShape shapeOf(const FlatExtent& extent);
 
-/// Where a wall's normal points in the room: along one of its axes where it nearly does.
+/// Where a wall's normal points in the room.
 Eigen::Vector3d axisOf(const WallLine& wall, const RoomShape& shape);
 
 }  // namespace mrpt_sgraphs

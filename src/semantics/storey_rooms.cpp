@@ -25,11 +25,14 @@ Eigen::Vector2d placeOf(const KeyframeNode& keyframe, const Pose& T_floor_map) {
   return (T_floor_map * keyframe.T_map_base.translation()).head<2>();
 }
 
+/// Keyframes within an outline that are not a storey away.
 std::size_t countInside(const std::vector<const KeyframeNode*>& keyframes, const FlatExtent& extent,
                         const Pose& T_floor_map) {
+  constexpr double kStorey_m = 3.0;
   return static_cast<std::size_t>(
       std::count_if(keyframes.begin(), keyframes.end(), [&](const KeyframeNode* keyframe) {
-        return contains(extent, placeOf(*keyframe, T_floor_map));
+        const double height_m = (T_floor_map * keyframe->T_map_base.translation()).z();
+        return std::abs(height_m) < kStorey_m && contains(extent, placeOf(*keyframe, T_floor_map));
       }));
 }
 
@@ -145,7 +148,8 @@ std::vector<DetectedRoom> StoreyRooms::detect(const std::vector<const KeyframeNo
         room.keyframes.push_back(keyframe->id);
       }
     }
-    if (room.keyframes.size() <= countInside(passing, outline.extent, T_floor_map)) continue;
+    // where a third of the way is on stairs, it is a stairwell
+    if (room.keyframes.size() <= 2 * countInside(passing, outline.extent, T_floor_map)) continue;
 
     room.anchor = room.keyframes.front();
     const auto anchor = std::find_if(keyframes.begin(), keyframes.end(),

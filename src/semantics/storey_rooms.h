@@ -25,8 +25,8 @@ class StoreyRooms {
   /// @return Whether anything was, or had.
   bool integrate(const std::vector<const KeyframeNode*>& keyframes, const Pose& T_floor_map);
 
-  /// @param passing  Keyframes on stairs and ramps: a region with more of them than of the storey's
-  ///                 own is no room.
+  /// @param passing  Keyframes on stairs and ramps: a region with half as many of them as of the
+  ///                 storey's own is no room.
   std::vector<DetectedRoom> detect(const std::vector<const KeyframeNode*>& keyframes,
                                    const std::vector<const KeyframeNode*>& passing,
                                    const SharedVector<WallNode>& walls,

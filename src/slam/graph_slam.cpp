@@ -4,6 +4,7 @@
 #include "mrpt_sgraphs/slam/graph_slam.h"
 
 #include <Eigen/Cholesky>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -90,6 +91,7 @@ struct GraphSlam::State {
   WallLayer walls;
   GroundLayer ground;
   RoomLayer rooms;
+  double reunion_tried_at_m = -std::numeric_limits<double>::infinity();
   Optimizer optimizer;
 };
 
@@ -114,9 +116,12 @@ void GraphSlam::State::addLoop(const LoopClosure& loop) {
 bool GraphSlam::State::reuniteRooms() {
   if (!config.rooms.close_loops || !config.loop_closure.enabled) return false;
   if (graph.size(Layer::kRoom) < 2) return false;
+  // rooms that look alike are many: as often as loops are looked for, not at every keyframe
+  if (way.way_m() - reunion_tried_at_m < config.loop_closure.min_interval_m) return false;
   const GraphSnapshotConstPtr now = graph.snapshot();
   const auto reunion = findReunion(*now, config.loop_closure.max_chi2);
   if (!reunion) return false;
+  reunion_tried_at_m = way.way_m();
   const auto loop = loop_closer.confirm(*now, reunion->keyframe, reunion->T_keyframe_newest);
   if (loop) addLoop(*loop);
   return loop.has_value();

@@ -6,6 +6,7 @@
 #include <pcl/point_types.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -119,7 +120,14 @@ TEST_F(OfflineOutputTest, GraphIsVersionedAndComplete) {
   const Json graph = this->graph();
   EXPECT_EQ(graph.at("format"), "mrpt_sgraphs/graph");
   EXPECT_EQ(graph.at("version"), 2);
-  EXPECT_EQ(graph.at("rooms"), Json::array());  // a layer that does not exist yet
+  EXPECT_EQ(graph.at("rooms").size(), 3U);
+  for (const Json& room : graph.at("rooms")) {
+    EXPECT_EQ(room.at("polygon").size(), 4U);
+    EXPECT_GE(room.at("keyframes").size(), 2U);
+    EXPECT_GE(room.at("doorways").size(), 1U);
+    EXPECT_EQ(room.at("floor"), 0);
+    EXPECT_GT(room.at("height"), 2.0);
+  }
   EXPECT_EQ(graph.at("floors").size(), 1U);
   ASSERT_GE(graph.at("walls").size(), 8U);  // two rooms and a corridor, some walls in one line
   for (const Json& wall : graph.at("walls")) {
@@ -141,15 +149,21 @@ TEST_F(OfflineOutputTest, GraphIsVersionedAndComplete) {
   std::set<std::string> types;
   for (const Json& factor : graph.at("factors")) {
     types.insert(factor.at("type").get<std::string>());
-    const std::size_t rows = isEdge(factor) ? 6 : 3;
+    const std::map<std::string, std::size_t> rows_of{
+        {"odometry", 6},         {"loop_closure", 6}, {"room_pose", 6},
+        {"wall_observation", 3}, {"wall_pair", 3},    {"ground_observation", 3},
+        {"floor_room", 3},       {"room_wall", 2},    {"room_centre", 1}};
+    const std::size_t rows = rows_of.at(factor.at("type").get<std::string>());
     EXPECT_EQ(factor.at("information").size(), rows * (rows + 1) / 2) << factor.at("type");
     for (const Json& number : factor.at("information")) EXPECT_TRUE(number.is_number()) << factor;
+    if (!factor.at("nodes").at(0).contains("keyframe")) continue;  // between the layers above
     EXPECT_EQ(ids.count(factor.at("nodes").at(0).at("keyframe").get<int>()), 1) << factor;
     if (isEdge(factor)) {
       EXPECT_EQ(ids.count(factor.at("nodes").at(1).at("keyframe").get<int>()), 1) << factor;
     }
   }
-  for (const char* type : {"loop_closure", "odometry", "wall_observation", "ground_observation"}) {
+  for (const char* type : {"loop_closure", "odometry", "wall_observation", "ground_observation",
+                           "room_wall", "room_centre", "floor_room"}) {
     EXPECT_EQ(types.count(type), 1U) << type;
   }
 }

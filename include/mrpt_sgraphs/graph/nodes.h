@@ -74,12 +74,20 @@ struct FloorConnection {
   FloorId to;
   Eigen::Vector3d here_map = Eigen::Vector3d::Zero();   ///< Where it leaves this floor [m],
   Eigen::Vector3d there_map = Eigen::Vector3d::Zero();  ///< and where it arrives on the other.
+
+  friend bool operator==(const FloorConnection& a, const FloorConnection& b) {
+    return a.to == b.to && a.here_map == b.here_map && a.there_map == b.there_map;
+  }
 };
 
 struct FloorAttributes {
   Eigen::Vector3d centre_map{0.0, 0.0, 0.0};  ///< [m]
   std::string name;
   std::vector<FloorConnection> connections;
+
+  friend bool operator==(const FloorAttributes& a, const FloorAttributes& b) {
+    return a.centre_map == b.centre_map && a.name == b.name && a.connections == b.connections;
+  }
 };
 
 struct FloorNode : FloorAttributes {

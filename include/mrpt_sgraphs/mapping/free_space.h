@@ -21,7 +21,8 @@ namespace mrpt_sgraphs {
 /// A ray tells of each voxel of the slab that it was free or, at its end, occupied, once a cloud. A
 /// hit weighs as much as three misses. Evidence is summed in multiples of 1/64, exactly, so what
 /// was added can be taken out again: a keyframe that has moved is removed where it was and added
-/// where it is.
+/// where it is. Beyond 780 hits or 2350 misses of one voxel OctoMap counts no further, and what is
+/// then taken out leaves that voxel the less certain.
 ///
 /// Frame: `floor`, z up and zero on the storey's ground.
 class FreeSpace {

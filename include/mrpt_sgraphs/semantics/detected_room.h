@@ -14,8 +14,7 @@ namespace mrpt_sgraphs {
 /// A wall that bounds a room.
 struct BoundingWall {
   WallId id;
-  /// Where its normal points, in the room: a horizontal unit vector, along one of the room's axes
-  /// where the wall stands at a right angle to them.
+  /// Where its normal points, in the room: a horizontal unit vector.
   Eigen::Vector3d axis_room = Eigen::Vector3d::UnitX();
 };
 
