@@ -67,6 +67,12 @@ class RoomDetectorNodelet final : public PipelineNodelet {
         detector_ = std::make_unique<RoomDetector>(config_);
         session_ = msg.session;
       }
+      const std::size_t lost = msg.keyframes.size() - graph.keyframes.size();
+      if (lost > 0) {  // rooms that it knows nothing of would be given up
+        const std::lock_guard<std::mutex> lock(last_mutex_);
+        last_.keyframes_without_cloud = lost;
+        return;
+      }
       const auto rooms =
           boost::make_shared<Rooms>(toMsg(detector_->detect(graph), msg.header.frame_id));
       rooms->session = msg.session;
@@ -74,8 +80,7 @@ class RoomDetectorNodelet final : public PipelineNodelet {
       rooms_pub_.publish(rooms);  // as a pointer, or it is serialized
 
       const std::lock_guard<std::mutex> lock(last_mutex_);
-      last_ = {true, msg.keyframes.size() - graph.keyframes.size(), rooms->rooms.size(),
-               rooms->detect_ms};
+      last_ = {true, 0, rooms->rooms.size(), rooms->detect_ms};
     } catch (const std::exception& error) {
       if (warning_.passes(error.what())) NODELET_WARN("No rooms: %s.", error.what());
     }
@@ -88,7 +93,8 @@ class RoomDetectorNodelet final : public PipelineNodelet {
       return;
     }
     if (last_.keyframes_without_cloud > 0) {
-      status.summary(Diagnostics::Status::WARN, "clouds of keyframes were lost on the way");
+      status.summary(Diagnostics::Status::WARN,
+                     "clouds of keyframes were lost on the way: rooms stay as they are");
     } else {
       status.summary(Diagnostics::Status::OK, last_.any ? "rooms are looked for" : "no graph yet");
     }

@@ -115,7 +115,7 @@ bool RoomLayer::update(const RoomDetection& detection, LayeredGraph* graph) {
   std::vector<DetectedRoom> rooms;
   for (const DetectedRoom& room : detection.rooms) rooms.push_back(inGraph(room, *graph));
   std::vector<std::optional<RoomId>> nodes = matchRooms(rooms, *graph);
-  bool changed = eraseAllBut(nodes, graph);
+  bool changed = eraseAllBut(nodes, rooms, graph);
   for (std::size_t k = 0; k < rooms.size(); ++k) {
     if (!graph->contains(rooms[k].anchor)) continue;  // nobody can say where it is
     if (nodes[k]) {
@@ -145,15 +145,50 @@ RoomLayer::Known RoomLayer::shapeOf(const DetectedRoom& room, const RoomAttribut
   return known;
 }
 
-bool RoomLayer::eraseAllBut(const std::vector<std::optional<RoomId>>& nodes, LayeredGraph* graph) {
+bool RoomLayer::eraseAllBut(const std::vector<std::optional<RoomId>>& nodes,
+                            const std::vector<DetectedRoom>& rooms, LayeredGraph* graph) {
+  std::set<KeyframeId> in_rooms;
+  for (const DetectedRoom& room : rooms) {
+    in_rooms.insert(room.keyframes.begin(), room.keyframes.end());
+  }
+  struct Keyframes {
+    int all = 0;
+    int in_others = 0;
+  };
+  std::map<RoomId, Keyframes> keyframes_of;
+  for (uint32_t slot = 0; slot < graph->size(Layer::kKeyframe); ++slot) {
+    const KeyframeId id{graph->nodeAt({Layer::kKeyframe, slot}).value};
+    const std::optional<RoomId> room = graph->attributes(id).room;
+    if (!room) continue;
+    ++keyframes_of[*room].all;
+    if (in_rooms.count(id) > 0) ++keyframes_of[*room].in_others;
+  }
+
   std::vector<RoomId> gone;
   for (uint32_t slot = 0; slot < graph->size(Layer::kRoom); ++slot) {
     const RoomId id{graph->nodeAt({Layer::kRoom, slot}).value};
-    if (std::find(nodes.begin(), nodes.end(), id) == nodes.end()) gone.push_back(id);
+    if (std::find(nodes.begin(), nodes.end(), id) != nodes.end()) {
+      missed_.erase(id);
+      continue;
+    }
+    const Keyframes& keyframes = keyframes_of[id];
+    const bool is_taken = 2 * keyframes.in_others >= keyframes.all;
+    if (is_taken || ++missed_[id] >= kMaxMissed) gone.push_back(id);
   }
   for (const RoomId id : gone) {
     graph->eraseNode(id);
     known_.erase(id);
+    missed_.erase(id);
+  }
+  // those that are found get their doorways anew; the others keep theirs, if not the way to nowhere
+  for (const auto& [id, times] : missed_) {
+    RoomAttributes attributes = graph->attributes(id);
+    for (auto* doorways : {&attributes.doorways, &known_[id].doorways_anchor}) {
+      for (Doorway& doorway : *doorways) {
+        if (doorway.to && !graph->contains(*doorway.to)) doorway.to.reset();
+      }
+    }
+    graph->setAttributes(id, attributes);
   }
   return !gone.empty();
 }
@@ -214,6 +249,8 @@ void RoomLayer::assignKeyframes(const RoomDetection& detection,
     const std::optional<RoomId> room =
         found == room_of.end() ? std::nullopt : std::optional<RoomId>(found->second);
     if (keyframe.room == room) continue;
+    const bool is_missed = !room && keyframe.room && missed_.count(*keyframe.room) > 0;
+    if (is_missed) continue;
     KeyframeAttributes assigned = keyframe;
     assigned.room = room;
     graph->setAttributes(id, assigned);

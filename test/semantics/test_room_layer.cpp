@@ -168,6 +168,13 @@ TEST(RoomLayer, ARoomThatIsNoMoreGoesWithItsFactorsAndItsKeyframesHaveNone) {
   RoomDetection found = lab.both();
   found.rooms.pop_back();
   found.rooms[0].doorways.clear();
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_FALSE(lab.layer.update(found, &lab.graph));
+    EXPECT_EQ(lab.rooms().size(), 2U) << "once or twice may be a mistake";
+    for (const KeyframeId id : lab.east_keyframes) {
+      EXPECT_EQ(lab.graph.attributes(id).room, RoomId{1});
+    }
+  }
   EXPECT_TRUE(lab.layer.update(found, &lab.graph));
   EXPECT_EQ(lab.rooms(), std::vector<RoomId>{RoomId{0}});
   EXPECT_EQ(lab.count("room_wall"), 4U);

@@ -19,7 +19,8 @@ namespace mrpt_sgraphs {
 ///
 /// A room keeps its id while it grows and while the graph moves. Rooms that have become one are the
 /// oldest of them, of a room that has become several the largest part keeps the id, and a room that
-/// is no more is erased. Nothing depends on the map's origin or on the directions of its x and y.
+/// was not found a few times is erased. Nothing depends on the map's origin or on the directions of
+/// its x and y.
 class RoomLayer {
  public:
   explicit RoomLayer(const RoomLayerConfig& config) : config_(config) {}
@@ -41,6 +42,9 @@ class RoomLayer {
   void follow(LayeredGraph* graph);
 
  private:
+  /// A doubtful wall must not cost a room its id and its name.
+  static constexpr int kMaxMissed = 3;
+
   /// A room as it was last detected, its axes as those of its node.
   struct Known {
     DetectedRoom room;
@@ -52,7 +56,9 @@ class RoomLayer {
 
   static Known shapeOf(const DetectedRoom& room, const RoomAttributes& attributes,
                        const Pose& T_map_room, const LayeredGraph& graph);
-  bool eraseAllBut(const std::vector<std::optional<RoomId>>& nodes, LayeredGraph* graph);
+  /// Rooms whose keyframes are in others now, or that were not found for a while.
+  bool eraseAllBut(const std::vector<std::optional<RoomId>>& nodes,
+                   const std::vector<DetectedRoom>& rooms, LayeredGraph* graph);
   bool bringInLine(RoomId id, const DetectedRoom& room, RoomAttributes attributes,
                    LayeredGraph* graph);
   void updateExactness(const std::vector<DetectedRoom>& rooms, const LayeredGraph& graph);
@@ -61,6 +67,7 @@ class RoomLayer {
 
   RoomLayerConfig config_;
   std::map<RoomId, Known> known_;
+  std::map<RoomId, int> missed_;  ///< How often in a row each was not found, of those that were not.
   RightAngles exactness_;  ///< Of the building, as far as it is known, and what from:
   std::vector<WallId> measured_walls_;
   double measured_keyframes_ = 0.0;
