@@ -4,6 +4,8 @@
 #include "storey_rooms.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <set>
 
 #include "mrpt_sgraphs/geometry/cell_outline.h"
@@ -25,15 +27,18 @@ Eigen::Vector2d placeOf(const KeyframeNode& keyframe, const Pose& T_floor_map) {
   return (T_floor_map * keyframe.T_map_base.translation()).head<2>();
 }
 
-/// Keyframes within an outline that are not a storey away.
-std::size_t countInside(const std::vector<const KeyframeNode*>& keyframes, const FlatExtent& extent,
-                        const Pose& T_floor_map) {
+/// Those within an outline that are not a storey away.
+std::vector<const KeyframeNode*> keyframesIn(const FlatExtent& extent,
+                                             const std::vector<const KeyframeNode*>& keyframes,
+                                             const Pose& T_floor_map) {
   constexpr double kStorey_m = 3.0;
-  return static_cast<std::size_t>(
-      std::count_if(keyframes.begin(), keyframes.end(), [&](const KeyframeNode* keyframe) {
-        const double height_m = (T_floor_map * keyframe->T_map_base.translation()).z();
-        return std::abs(height_m) < kStorey_m && contains(extent, placeOf(*keyframe, T_floor_map));
-      }));
+  std::vector<const KeyframeNode*> inside;
+  std::copy_if(keyframes.begin(), keyframes.end(), std::back_inserter(inside),
+               [&](const KeyframeNode* keyframe) {
+                 const Eigen::Vector3d at = T_floor_map * keyframe->T_map_base.translation();
+                 return std::abs(at.z()) < kStorey_m && contains(extent, at.head<2>());
+               });
+  return inside;
 }
 
 /// Numbers of the regions that keyframes stand in.
@@ -66,6 +71,25 @@ PlanarExtent raised(const FlatExtent& extent) {
   PlanarExtent result{raised(extent.outline), {}};
   for (const Outline2& hole : extent.holes) result.holes.push_back(raised(hole));
   return result;
+}
+
+/// What an outline and its walls tell of a room.
+DetectedRoom roomOf(const RoomOutline& outline, const std::vector<WallLine>& lines,
+                    const Pose& T_anchor_floor) {
+  DetectedRoom room;
+  const RoomShape shape = shapeOf(outline.extent);
+  room.kind = shape.kind;
+  room.size_m = shape.size_m;
+  room.T_anchor_room = T_anchor_floor * poseOf(shape);
+  room.extent_anchor = T_anchor_floor * raised(outline.extent);
+  for (const WallLine& line : lines) {
+    if (std::find(outline.walls.begin(), outline.walls.end(), line.id) == outline.walls.end()) {
+      continue;
+    }
+    room.walls.push_back({line.id, axisOf(line, shape)});
+    room.height_m = std::max(room.height_m, line.top_m);
+  }
+  return room;
 }
 
 /// Openings that are ways: a door in a thick wall once, in the middle of it.
@@ -142,31 +166,15 @@ std::vector<DetectedRoom> StoreyRooms::detect(const std::vector<const KeyframeNo
     const RoomOutline outline = roomOutlineOf(map, region, space_, lines, barriers);
     if (outline.extent.outline.empty() || areaOf(outline.extent) < config_.min_area_m2) continue;
     if (outline.bounded_m < config_.min_bounded * outline.length_m) continue;
-    DetectedRoom room;
-    for (const KeyframeNode* keyframe : keyframes) {
-      if (contains(outline.extent, placeOf(*keyframe, T_floor_map))) {
-        room.keyframes.push_back(keyframe->id);
-      }
-    }
+    const auto inside = keyframesIn(outline.extent, keyframes, T_floor_map);
     // where a third of the way is on stairs, it is a stairwell
-    if (room.keyframes.size() <= 2 * countInside(passing, outline.extent, T_floor_map)) continue;
-
-    room.anchor = room.keyframes.front();
-    const auto anchor = std::find_if(keyframes.begin(), keyframes.end(),
-                                     [&](const KeyframeNode* k) { return k->id == room.anchor; });
-    const Pose T_anchor_floor = (T_floor_map * (*anchor)->T_map_base).inverse();
-    const RoomShape shape = shapeOf(outline.extent);
-    room.T_anchor_room = T_anchor_floor * poseOf(shape);
-    room.kind = shape.kind;
+    const auto on_stairs = keyframesIn(outline.extent, passing, T_floor_map);
+    if (inside.size() <= 2 * on_stairs.size()) continue;
+    const Pose T_anchor_floor = (T_floor_map * inside.front()->T_map_base).inverse();
+    DetectedRoom room = roomOf(outline, lines, T_anchor_floor);
     room.floor = floor_;
-    room.size_m = shape.size_m;
-    room.extent_anchor = T_anchor_floor * raised(outline.extent);
-    for (const WallLine& line : lines) {
-      if (std::find(outline.walls.begin(), outline.walls.end(), line.id) != outline.walls.end()) {
-        room.walls.push_back({line.id, axisOf(line, shape)});
-        room.height_m = std::max(room.height_m, line.top_m);
-      }
-    }
+    room.anchor = inside.front()->id;
+    for (const KeyframeNode* keyframe : inside) room.keyframes.push_back(keyframe->id);
     found.push_back({region, std::move(room), T_anchor_floor});
   }
 
