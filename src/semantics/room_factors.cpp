@@ -71,7 +71,8 @@ class Factors {
 
   /// One pair in each direction: a polygon's walls that face each other are no two sides of it.
   void addCentres() {
-    if (room_.kind == RoomAttributes::Kind::kPolygon) return;
+    using Kind = RoomAttributes::Kind;
+    if (room_.kind != Kind::kFourWalls && room_.kind != Kind::kCorridor) return;
     for (const int along : {0, 1}) {
       const Eigen::Vector3d axis = Eigen::Vector3d::Unit(along);
       const std::optional<WallId> a = wallAlong(axis);

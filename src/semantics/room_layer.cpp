@@ -41,7 +41,10 @@ bool isSame(const RoomAttributes& a, const RoomAttributes& b) {
 
 /// "corridor 5", until somebody gives it another one.
 std::string defaultName(RoomAttributes::Kind kind, RoomId id) {
-  const char* const word = kind == RoomAttributes::Kind::kCorridor ? "corridor " : "room ";
+  using Kind = RoomAttributes::Kind;
+  const char* const word = kind == Kind::kCorridor    ? "corridor "
+                           : kind == Kind::kStairwell ? "stairwell "
+                                                      : "room ";
   return word + std::to_string(id.value);
 }
 

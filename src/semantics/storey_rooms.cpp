@@ -167,11 +167,12 @@ std::vector<DetectedRoom> StoreyRooms::detect(const std::vector<const KeyframeNo
     if (outline.extent.outline.empty() || areaOf(outline.extent) < config_.min_area_m2) continue;
     if (outline.bounded_m < config_.min_bounded * outline.length_m) continue;
     const auto inside = keyframesIn(outline.extent, keyframes, T_floor_map);
-    // where a third of the way is on stairs, it is a stairwell
-    const auto on_stairs = keyframesIn(outline.extent, passing, T_floor_map);
-    if (inside.size() <= 2 * on_stairs.size()) continue;
+    if (inside.empty()) continue;
     const Pose T_anchor_floor = (T_floor_map * inside.front()->T_map_base).inverse();
     DetectedRoom room = roomOf(outline, lines, T_anchor_floor);
+    // where a third of the way is on stairs
+    const auto on_stairs = keyframesIn(outline.extent, passing, T_floor_map);
+    if (inside.size() <= 2 * on_stairs.size()) room.kind = RoomAttributes::Kind::kStairwell;
     room.floor = floor_;
     room.anchor = inside.front()->id;
     for (const KeyframeNode* keyframe : inside) room.keyframes.push_back(keyframe->id);

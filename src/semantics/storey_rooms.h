@@ -26,7 +26,7 @@ class StoreyRooms {
   bool integrate(const std::vector<const KeyframeNode*>& keyframes, const Pose& T_floor_map);
 
   /// @param passing  Keyframes on stairs and ramps: a region with half as many of them as of the
-  ///                 storey's own is no room.
+  ///                 storey's own is a stairwell.
   std::vector<DetectedRoom> detect(const std::vector<const KeyframeNode*>& keyframes,
                                    const std::vector<const KeyframeNode*>& passing,
                                    const SharedVector<WallNode>& walls,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mrpt_sgraphs/geometry/cell_outline.h"
 #include "mrpt_sgraphs/semantics/room_detector.h"
 #include "plan_lab.h"
@@ -224,23 +226,33 @@ TEST(RoomDetector, OutdoorsIsNoRoom) {
   EXPECT_TRUE(detect(lab).rooms.empty());
 }
 
-TEST(RoomDetector, StoreysAreApartAndStairwellsAreNone) {
+TEST(RoomDetector, StoreysAreApartAndStairwellsAreKnown) {
   PlanLab lab;
   const FloorId lower = lab.addFloor(0.0);
   addTwoRooms(&lab);
   const FloorId upper = lab.addFloor(3.2);
   addTwoRooms(&lab);
   lab.walk({1, 2}, {9, 2});
-  PlanLab& same = lab;
-  const std::size_t on_upper = detect(same).rooms.size();
-  EXPECT_EQ(on_upper, 2U) << "nothing is known of the storey below";
+  const RoomDetection before = detect(lab);
+  ASSERT_EQ(before.rooms.size(), 2U) << "nothing is known of the storey below";
+  for (const DetectedRoom& room : before.rooms) EXPECT_EQ(room.kind, Kind::kFourWalls);
   // up through the right room of the upper storey: more of it is stairs than floor
-  for (int k = 0; k < 9; ++k) lab.stand({6.0 + 0.3 * k, 3.0}, 1.4 + 0.2 * k);
+  std::vector<KeyframeId> stairs;
+  for (int k = 0; k < 9; ++k) stairs.push_back(lab.stand({6.0 + 0.3 * k, 3.0}, 1.4 + 0.2 * k));
+  // and another flight two storeys above the left one, which is none of its business
+  for (int k = 0; k < 9; ++k) lab.stand({1.0 + 0.3 * k, 3.0}, 7.4 + 0.2 * k);
   const RoomDetection detection = detect(lab);
-  ASSERT_EQ(detection.rooms.size(), 1U);
-  EXPECT_EQ(detection.rooms[0].floor, upper);
-  EXPECT_NE(detection.rooms[0].floor, lower);
-  EXPECT_LT((lab.graph.pose(detection.rooms[0].anchor)).translation().x(), 5.0);
+  ASSERT_EQ(detection.rooms.size(), 2U);
+  for (const DetectedRoom& room : detection.rooms) {
+    EXPECT_EQ(room.floor, upper);
+    EXPECT_NE(room.floor, lower);
+    const bool is_right = lab.graph.pose(room.anchor).translation().x() > 5.0;
+    EXPECT_EQ(room.kind, is_right ? Kind::kStairwell : Kind::kFourWalls);
+    for (const KeyframeId id : stairs) {
+      EXPECT_EQ(std::count(room.keyframes.begin(), room.keyframes.end(), id), 0)
+          << "what is on the stairs is in no room";
+    }
+  }
 }
 
 TEST(RoomDetector, IsTheSameStepByStepAndAtOnce) {

@@ -52,7 +52,9 @@ struct Doorway {
 };
 
 struct RoomAttributes {
-  enum class Kind { kFourWalls, kCorridor, kPolygon };
+  /// A stairwell is what lies around stairs on the level of its floor. The flights are connections
+  /// of floors, and what is on them is in no room.
+  enum class Kind { kFourWalls, kCorridor, kPolygon, kStairwell };
 
   Kind kind = Kind::kFourWalls;
   std::vector<WallId> walls;
