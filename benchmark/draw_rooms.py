@@ -26,9 +26,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.patches import PathPatch  # noqa: E402
 from matplotlib.path import Path as Outline  # noqa: E402
 
-from drawing import building_of, close, evaluate, truth_motion  # noqa: E402
-
-HERE = Path(__file__).resolve().parent
+from drawing import add_places, building_of, close, evaluate, truth_motion  # noqa: E402
 
 
 def points(rows):
@@ -143,9 +141,7 @@ def parsed():
     parser.add_argument("run", type=Path, metavar="RUN_DIR")
     parser.add_argument("--truth", type=Path, help="folder of sgraphs_simulate, or a .tum file")
     parser.add_argument("--rooms", type=Path, help="list of boxes of the true rooms")
-    parser.add_argument("--out", type=Path, required=True, metavar="PNG")
-    parser.add_argument("--build", type=Path, default=HERE.parent / "build",
-                        help="folder in which our programs were built")
+    add_places(parser)
     return parser.parse_args()
 
 

@@ -25,9 +25,8 @@ import matplotlib
 matplotlib.use("Agg")  # no display is needed
 import matplotlib.pyplot as plt  # noqa: E402
 
-from drawing import building_of, close, evaluate, truth_motion  # noqa: E402
+from drawing import add_places, building_of, close, evaluate, truth_motion  # noqa: E402
 
-HERE = Path(__file__).resolve().parent
 MAX_POINTS = 150000  # that are drawn from above
 ON_WALL_M = 0.05
 AROUND_M = 0.5  # of an elevation, beside the wall
@@ -162,12 +161,10 @@ def parsed():
     )
     parser.add_argument("run", type=Path, metavar="RUN_DIR")
     parser.add_argument("--truth", type=Path, help="folder of sgraphs_simulate, or a .tum file in one")
-    parser.add_argument("--out", type=Path, required=True, metavar="PNG")
     parser.add_argument("--slice", type=float, nargs=2, metavar=("Z_MIN", "Z_MAX"),
                         help="heights in map [m] (default: 0.3 m below the keyframes to 1 m above)")
     parser.add_argument("--elevations", type=int, default=6, help="walls that are drawn from the side")
-    parser.add_argument("--build", type=Path, default=HERE.parent / "build",
-                        help="folder in which our programs were built")
+    add_places(parser)
     return parser.parse_args()
 
 

@@ -3,8 +3,17 @@
 """What drawings of a run need of its truth."""
 import json
 import subprocess
+from pathlib import Path
 
 import numpy as np
+
+
+def add_places(parser):
+    """The options of every drawing: where it goes, and where our programs are."""
+    parser.add_argument("--out", type=Path, required=True, metavar="PNG")
+    parser.add_argument("--build", type=Path,
+                        default=Path(__file__).resolve().parent.parent / "build",
+                        help="folder in which our programs were built")
 
 
 def evaluate(run, truth, build, *options):

@@ -167,7 +167,9 @@ bool WallLayer::promote(LayeredGraph* graph) {
     if (track.id || track.is_furniture || keyframesOf(track.sightings) < config_.min_sightings) continue;
     if (track.extent.area_m2() < config_.min_wall_area_m2) continue;
     track.id = graph->addWall(track.plane_map, {});
-    for (SurfaceSighting& sighting : track.sightings) addObservation(*track.id, config_.kernel_chi2, &sighting, graph);
+    for (SurfaceSighting& sighting : track.sightings) {
+      addObservation(*track.id, config_.kernel_chi2, &sighting, graph);
+    }
     track.grown = true;
     changed = true;
   }

@@ -134,11 +134,9 @@ RoomOutline roomOutlineOf(const RegionMap& map, int region, const FreeSpace& spa
     outline.bounded_m += boundedLength(border, is_inside[border.front], plan, barriers);
     const Line2& line = plan.lines[border.line];
     for (const std::size_t k : plan.barriers[border.line]) {
-      if ((line.normal.dot(walls[k].line.normal) > 0.0) != is_inside[border.front]) continue;
-      const double a = line.along().dot(walls[k].at(walls[k].begin_m));
-      const double b = line.along().dot(walls[k].at(walls[k].end_m));
-      const double shared_m =
-          std::min(border.end, std::max(a, b)) - std::max(border.begin, std::min(a, b));
+      if (walls[k].looksAlong(line) != is_inside[border.front]) continue;
+      const auto [begin, end] = walls[k].spanOn(line);
+      const double shared_m = std::min(border.end, end) - std::max(border.begin, begin);
       on_wall_m[k] += std::max(0.0, shared_m);
     }
   }

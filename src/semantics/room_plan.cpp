@@ -164,11 +164,7 @@ double boundedLength(const LineArrangement::Border& border, bool in_front, const
   double until_m = border.begin;  // barriers may overlap
   std::vector<std::pair<double, double>> spans;
   for (const std::size_t k : plan.barriers[border.line]) {
-    const double direction = line.normal.dot(barriers[k].line.normal);
-    if ((direction > 0.0) != in_front) continue;
-    const double a = line.along().dot(barriers[k].at(barriers[k].begin_m));
-    const double b = line.along().dot(barriers[k].at(barriers[k].end_m));
-    spans.emplace_back(std::min(a, b), std::max(a, b));
+    if (barriers[k].looksAlong(line) == in_front) spans.push_back(barriers[k].spanOn(line));
   }
   std::sort(spans.begin(), spans.end());
   for (const auto& [begin, end] : spans) {

@@ -61,18 +61,6 @@ Pose poseOf(const RoomShape& shape) {
   return T_floor_room;
 }
 
-Outline3 raised(const Outline2& outline) {
-  Outline3 ring;
-  for (const Eigen::Vector2d& corner : outline) ring.emplace_back(corner.x(), corner.y(), 0.0);
-  return ring;
-}
-
-PlanarExtent raised(const FlatExtent& extent) {
-  PlanarExtent result{raised(extent.outline), {}};
-  for (const Outline2& hole : extent.holes) result.holes.push_back(raised(hole));
-  return result;
-}
-
 /// What an outline and its walls tell of a room.
 DetectedRoom roomOf(const RoomOutline& outline, const std::vector<WallLine>& lines,
                     const Pose& T_anchor_floor) {
@@ -81,7 +69,7 @@ DetectedRoom roomOf(const RoomOutline& outline, const std::vector<WallLine>& lin
   room.kind = shape.kind;
   room.size_m = shape.size_m;
   room.T_anchor_room = T_anchor_floor * poseOf(shape);
-  room.extent_anchor = T_anchor_floor * raised(outline.extent);
+  room.extent_anchor = T_anchor_floor * lifted(outline.extent, PlaneFrame{});
   for (const WallLine& line : lines) {
     if (std::find(outline.walls.begin(), outline.walls.end(), line.id) == outline.walls.end()) {
       continue;

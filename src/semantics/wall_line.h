@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "mrpt_sgraphs/geometry/line_arrangement.h"
@@ -24,6 +26,14 @@ struct WallLine {
   Eigen::Vector2d at(double along_m) const {
     return line.distance * line.normal + along_m * line.along();
   }
+
+  /// From where to where it goes along a line that is nearly its own.
+  std::pair<double, double> spanOn(const Line2& other) const {
+    return std::minmax<double>({other.along().dot(at(begin_m)), other.along().dot(at(end_m))});
+  }
+
+  /// Whether it looks to the front of a line that is nearly its own.
+  bool looksAlong(const Line2& other) const { return other.normal.dot(line.normal) > 0.0; }
 };
 
 /// Part of the plan at a certain height, of which walls it may be said that they stand in it.

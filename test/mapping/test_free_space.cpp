@@ -63,7 +63,6 @@ TEST(FreeSpace, RemovingUndoesAdding) {
   space.add(from_there, at(4.3, 1.2, 1.1, 0.8));  // where it was believed to be
   space.add(from_here, here);
   space.remove(from_there, at(4.3, 1.2, 1.1, 0.8));
-  space.box();
   for (int row = -20; row < 70; ++row) {
     for (int column = -20; column < 90; ++column) {
       EXPECT_EQ(space.at({column, row}), once.at({column, row})) << column << ' ' << row;

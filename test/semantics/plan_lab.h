@@ -43,6 +43,21 @@ class PlanLab {
     for (const Face& face : plan.faces) addFace(face);
   }
 
+  /// Four walls around a box from the origin.
+  void addBox(double x_m, double y_m) {
+    addWall({0, 0}, {x_m, 0});
+    addWall({x_m, 0}, {x_m, y_m});
+    addWall({x_m, y_m}, {0, y_m});
+    addWall({0, y_m}, {0, 0});
+  }
+
+  /// Faces from corner to corner, that look to the left: counter-clockwise, into a room.
+  void addFaces(const std::vector<Eigen::Vector2d>& corners) {
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      addFace({corners[k], corners[(k + 1) % corners.size()], {}});
+    }
+  }
+
   /// One side of a wall, seen from the left of the way from a to b.
   void addFace(Face face) {
     addSurfaces(face);

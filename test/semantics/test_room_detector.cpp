@@ -32,10 +32,7 @@ const DetectedRoom* roomAt(const RoomDetection& detection, const PlanLab& lab,
 
 /// Two rooms of 5 x 4 m side by side, with a door of 0.9 m between them.
 void addTwoRooms(PlanLab* lab) {
-  lab->addWall({0, 0}, {10, 0});
-  lab->addWall({10, 0}, {10, 4});
-  lab->addWall({10, 4}, {0, 4});
-  lab->addWall({0, 4}, {0, 0});
+  lab->addBox(10, 4);
   lab->addWall({5, 0}, {5, 4}, {{1.5, 2.4}});
 }
 
@@ -115,9 +112,7 @@ TEST(RoomDetector, LShapeIsOneRoomWithSixCorners) {
   PlanLab lab;
   lab.addFloor(0.0);
   const std::vector<Eigen::Vector2d> corners{{0, 0}, {8, 0}, {8, 4}, {4, 4}, {4, 9}, {0, 9}};
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    lab.addFace({corners[k], corners[(k + 1) % corners.size()], {}});
-  }
+  lab.addFaces(corners);
   lab.walk({6, 2}, {2, 2});
   lab.walk({2, 3}, {2, 7});
   const RoomDetection detection = detect(lab);
@@ -134,9 +129,7 @@ TEST(RoomDetector, CorridorWithABendIsOneCorridor) {
   lab.addFloor(0.0);
   const std::vector<Eigen::Vector2d> corners{{0, 0},      {12, 0},   {18, 6},
                                              {16.6, 7.4}, {11.2, 2}, {0, 2}};
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    lab.addFace({corners[k], corners[(k + 1) % corners.size()], {}});
-  }
+  lab.addFaces(corners);
   lab.walk({1, 1}, {11.5, 1});
   lab.walk({12, 1.4}, {16.5, 6});
   const RoomDetection detection = detect(lab);
@@ -151,8 +144,7 @@ TEST(RoomDetector, CrossingCorridorsAreOneRegion) {
   PlanLab lab;
   lab.addFloor(0.0);
   const auto block = [&lab](double x, double y) {
-    const std::vector<Eigen::Vector2d> c{{x, y}, {x, y + 6}, {x + 6, y + 6}, {x + 6, y}};
-    for (std::size_t k = 0; k < c.size(); ++k) lab.addFace({c[k], c[(k + 1) % c.size()], {}});
+    lab.addFaces({{x, y}, {x, y + 6}, {x + 6, y + 6}, {x + 6, y}});
   };
   for (const double x : {0.0, 8.0}) {
     for (const double y : {0.0, 8.0}) block(x, y);
@@ -174,10 +166,7 @@ TEST(RoomDetector, CrossingCorridorsAreOneRegion) {
 TEST(RoomDetector, OpenPlanWithAPartitionIsOneRegion) {
   PlanLab lab;
   lab.addFloor(0.0);
-  lab.addWall({0, 0}, {14, 0});
-  lab.addWall({14, 0}, {14, 9});
-  lab.addWall({14, 9}, {0, 9});
-  lab.addWall({0, 9}, {0, 0});
+  lab.addBox(14, 9);
   lab.addWall({7, 0}, {7, 3});  // reaches a third into it
   lab.walk({3, 6}, {11, 6});
   lab.walk({11, 5}, {11, 2});
