@@ -145,7 +145,7 @@ bool WallLayer::associate(const WayToNewest& way, LayeredGraph* graph) {
   if (giveUpFurniture(graph)) changed = true;
   if (promote(graph)) changed = true;
   forgetUnseen(way.way_m());
-  erasures_ = graph->erasures();
+  losses_ = graph->losses();
   return changed;
 }
 
@@ -197,7 +197,7 @@ void WallLayer::refreshPlanes(const LayeredGraph& graph) {
 }
 
 void WallLayer::dropErased(LayeredGraph* graph) {
-  if (graph->erasures() == erasures_) return;
+  if (graph->losses() == losses_) return;
   for (auto entry = tracks_.begin(); entry != tracks_.end();) {
     WallTrack& track = entry->second;
     mrpt_sgraphs::dropErased(*graph, &track.sightings);
@@ -211,7 +211,7 @@ void WallLayer::dropErased(LayeredGraph* graph) {
   for (auto pair = pairs_.begin(); pair != pairs_.end();) {
     pair = graph->contains(pair->second) ? std::next(pair) : pairs_.erase(pair);
   }
-  erasures_ = graph->erasures();
+  losses_ = graph->losses();
 }
 
 }  // namespace mrpt_sgraphs

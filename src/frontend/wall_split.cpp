@@ -92,7 +92,7 @@ void WallLayer::release(LayeredGraph* graph) {
     }
   }
   promote(graph);
-  erasures_ = graph->erasures();
+  losses_ = graph->losses();
 }
 
 bool WallLayer::splitTracks(LayeredGraph* graph) {

@@ -39,7 +39,7 @@ bool WallLayer::maintain(const Gate& gate, LayeredGraph* graph) {
   cutAtGrounds(*graph);
   updateOutlines(graph);
   for (auto& [number, track] : tracks_) track.grown = false;
-  erasures_ = graph->erasures();
+  losses_ = graph->losses();
   return changed;
 }
 

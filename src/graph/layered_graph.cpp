@@ -102,7 +102,9 @@ void LayeredGraph::eraseNode(NodeId node) {
   const NodeHandle place = handle(node);
   while (!topology_.sightings(place).empty()) eraseFactor(topology_.sightings(place).back().id);
   while (!topology_.others(place).empty()) eraseFactor(topology_.others(place).back().id);
+  while (!shelf_.of(node).empty()) eraseFactor(shelf_.of(node).back());
   ++erasures_;
+  ++losses_;
   topology_.eraseNode(place);
   if (place.layer == Layer::kKeyframe) {
     writeMovedPoses();  // while their places are what they were
@@ -122,17 +124,57 @@ void LayeredGraph::eraseNode(NodeId node) {
 FactorId LayeredGraph::addFactor(FactorConstPtr factor) {
   const std::vector<NodeHandle> nodes = validated(factor);
   const FactorId id{next_factor_++};
+  insertFactor(id, factor, nodes);
+  return id;
+}
+
+void LayeredGraph::insertFactor(FactorId id, const FactorConstPtr& factor,
+                                const std::vector<NodeHandle>& nodes) {
   const RelativePoseFactor* const edge = keyframeEdge(*factor);
   edges_.emplace_back();
   if (edge != nullptr) edges_.back() = network_.addEdge(*edge);
   factor_slots_[id] = static_cast<uint32_t>(factors_.size());
-  factors_.push_back({id, std::move(factor)});
+  factors_.push_back({id, factor});
   topology_.addFactor(id, nodes);
   snapshot_.reset();
-  return id;
 }
 
 void LayeredGraph::eraseFactor(FactorId id) {
+  ++losses_;
+  if (shelf_.contains(id)) {
+    const ShelvedFactor gone = shelf_.take(id);
+    if (gone.kept) broken_shelves_.insert(*gone.kept);
+    snapshot_.reset();
+    return;
+  }
+  removeFactor(id);
+}
+
+void LayeredGraph::replaceFactor(FactorId id, FactorConstPtr factor) {
+  const std::vector<NodeHandle> nodes = validated(factor);
+  removeFactor(id);
+  insertFactor(id, factor, nodes);
+}
+
+void LayeredGraph::shelve(FactorId id, std::optional<KeyframeId> kept) {
+  const FactorConstPtr factor = factors_[factorSlot(id)].factor;
+  removeFactor(id);
+  shelf_.add({id, factor, kept});
+}
+
+void LayeredGraph::unshelve(FactorId id) {
+  const FactorConstPtr factor = shelf_.take(id).factor;
+  std::vector<NodeHandle> nodes;
+  for (int k = 0; k < factor->nodeCount(); ++k) nodes.push_back(handle(factor->node(k)));
+  insertFactor(id, factor, nodes);
+}
+
+void LayeredGraph::setKept(FactorId id, std::optional<KeyframeId> kept) {
+  shelf_.setKept(id, kept);
+  snapshot_.reset();
+}
+
+void LayeredGraph::removeFactor(FactorId id) {
   const uint32_t slot = factorSlot(id);
   ++erasures_;
   if (edges_[slot]) network_.eraseEdge(*edges_[slot]);
@@ -256,6 +298,7 @@ GraphSnapshotConstPtr LayeredGraph::snapshot() const {
   snapshot->rooms = rooms_.nodes();
   snapshot->floors = floors_.nodes();
   snapshot->factors = factors_;
+  snapshot->shelved = shelf_.all();
   if (keyframes_.size() > 0) snapshot->stamp_s = keyframes_.nodes().back().stamp_s;
   snapshot_ = std::move(snapshot);
   return snapshot_;

@@ -149,6 +149,13 @@ void ParamSection::operator()(const std::string& name, std::string& value) {
   value = static_cast<std::string>(*parameter);
 }
 
+void ParamSection::operator()(const std::string& name, std::string& value,
+                              const std::vector<std::string>& choices) {
+  (*this)(name, value);
+  const bool is_one = std::find(choices.begin(), choices.end(), value) != choices.end();
+  if (!is_one) refuse(name, "one of " + joined(choices));
+}
+
 void ParamSection::refuseUnknown() const {
   for (const auto& [name, value] : given_) {
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;

@@ -5,6 +5,7 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -25,6 +26,13 @@ class ParamSection {
   void operator()(const std::string& name, int& value, int min, int max);
   void operator()(const std::string& name, bool& value);
   void operator()(const std::string& name, std::string& value);
+  template <std::size_t N>
+  void operator()(const std::string& name, std::string& value,
+                  const std::array<const char*, N>& choices) {
+    (*this)(name, value, std::vector<std::string>(choices.begin(), choices.end()));
+  }
+  void operator()(const std::string& name, std::string& value,
+                  const std::vector<std::string>& choices);
 
   /// @throws std::invalid_argument for a parameter that was given and is none of those read.
   void refuseUnknown() const;

@@ -261,8 +261,8 @@ void RoomLayer::assignKeyframes(const RoomDetection& detection,
 }
 
 void RoomLayer::mend(LayeredGraph* graph) {
-  if (graph->erasures() == erasures_) return;
-  erasures_ = graph->erasures();
+  if (graph->losses() == losses_) return;
+  losses_ = graph->losses();
   for (auto& [id, known] : known_) {
     if (!graph->contains(id) || !graph->contains(known.room.anchor)) continue;
     RoomAttributes attributes = graph->attributes(id);

@@ -5,6 +5,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <array>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -48,6 +49,16 @@ class SectionReader {
  private:
   template <typename T>
   void check(const char*, const T&) const {}
+  template <std::size_t N>
+  void check(const char* name, const std::string& value,
+             const std::array<const char*, N>& choices) const {
+    std::string listed;
+    for (const char* choice : choices) {
+      if (value == choice) return;
+      listed += (listed.empty() ? "" : ", ") + std::string(choice);
+    }
+    throw std::runtime_error(where_ + "/" + name + " is '" + value + "', must be one of " + listed);
+  }
   template <typename T, typename Limit>
   void check(const char* name, const T& value, Limit lowest, Limit highest) const {
     if (value >= static_cast<T>(lowest) && value <= static_cast<T>(highest)) return;

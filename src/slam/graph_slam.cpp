@@ -229,6 +229,10 @@ OptimizationSummary GraphSlam::optimize() {
   return optimizations.back();
 }
 
+void GraphSlam::setHierarchy(const HierarchyConfig& hierarchy) {
+  state_->config.hierarchy = hierarchy;
+}
+
 GraphSnapshotConstPtr GraphSlam::snapshot() const { return state_->graph.snapshot(); }
 
 const Pose& GraphSlam::T_map_odom() const { return state_->graph.T_map_odom(); }

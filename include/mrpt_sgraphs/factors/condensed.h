@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <variant>
 #include <vector>
@@ -34,6 +35,10 @@ class CondensedFactor final : public Factor {
   struct Other {
     NodeId node;
     std::variant<Pose, Plane> seen_kept;
+    /// Of a keyframe: covariance of T_kept_other, right perturbation of the other, by the relative
+    /// poses alone that were eliminated, added up along the most certain way. None: there is no way.
+    /// Not in the cost: it says how far to look for what may be the same.
+    std::optional<Matrix6> way_covariance;
   };
 
   /// The quadratic, rows in the order of the nodes.

@@ -127,7 +127,7 @@ class WallLayer {
   TrackNumber next_ = 0;
   std::map<std::pair<TrackNumber, TrackNumber>, FactorId> pairs_;
   std::map<KeyframeId, Pose> drawn_at_;  ///< T_map_base of the keyframes in the extents.
-  uint64_t erasures_ = 0;                ///< Of the graph, when it was last looked at.
+  uint64_t losses_ = 0;                ///< Of the graph, when it was last looked at.
 };
 
 }  // namespace mrpt_sgraphs

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <vector>
 
+#include "mrpt_sgraphs/graph/factor_shelf.h"
 #include "mrpt_sgraphs/graph/keyframe_network.h"
 #include "mrpt_sgraphs/graph/layer_nodes.h"
 #include "mrpt_sgraphs/graph/snapshot.h"
@@ -47,11 +49,30 @@ class LayeredGraph {
   ///         those of a positive semidefinite information.
   FactorId addFactor(FactorConstPtr factor);
   void eraseFactor(FactorId id);
+  /// Another factor under the same id. Throws as to add it does, and nothing has changed then.
+  void replaceFactor(FactorId id, FactorConstPtr factor);
+
+  /// Takes a factor out of the optimization for another one that stands for it, and back again. It
+  /// keeps its id, and is found and erased by it as before; only the topology does not know it.
+  /// @param kept  Whose condensed factor it is in from now on; none: a transferred edge.
+  void shelve(FactorId id, std::optional<KeyframeId> kept);
+  void unshelve(FactorId id);
+  const FactorShelf& shelf() const { return shelf_; }
+  /// The condensed factor of a kept keyframe is not to be had from its shelved factors any more: some
+  /// were erased since it was made.
+  const std::set<KeyframeId>& brokenShelves() const { return broken_shelves_; }
+  void setMended(KeyframeId kept) { broken_shelves_.erase(kept); }
+  void setKept(FactorId id, std::optional<KeyframeId> kept);
 
   /// What is asked for by an id throws std::out_of_range if that is not in the graph.
   bool contains(NodeId node) const;
-  bool contains(FactorId id) const { return factor_slots_.count(id) != 0; }
-  const FactorConstPtr& factor(FactorId id) const { return factors_[factorSlot(id)].factor; }
+  /// Also of one that is shelved.
+  bool contains(FactorId id) const {
+    return factor_slots_.count(id) != 0 || shelf_.contains(id);
+  }
+  const FactorConstPtr& factor(FactorId id) const {
+    return shelf_.contains(id) ? shelf_.at(id).factor : factors_[factorSlot(id)].factor;
+  }
   /// In no order that means anything; neither copies nor searches. See Topology for the two kinds.
   const Topology::Links& sightingsOf(NodeId node) const {
     return topology_.sightings(handle(node));
@@ -93,8 +114,11 @@ class LayeredGraph {
   void setPlane(NodeHandle node, const Plane& plane);
   const StoredFactor& factorAt(uint32_t slot) const { return factors_[slot]; }
   const Topology& topology() const { return topology_; }
-  /// How often a node or factor was erased: places that are remembered are good while it stands.
+  /// How often a node or factor has lost its place: places that are remembered are good while it
+  /// stands.
   uint64_t erasures() const { return erasures_; }
+  /// How often a node or factor was erased: ids that are remembered are good while it stands.
+  uint64_t losses() const { return losses_; }
 
   /// To be handed to MRPT.
   const Network& network() const { return network_.network(); }
@@ -112,6 +136,9 @@ class LayeredGraph {
   auto inLayer(Layer layer, const Visit& visit) const;
   uint32_t factorSlot(FactorId id) const;
   std::vector<NodeHandle> validated(const FactorConstPtr& factor) const;
+  void insertFactor(FactorId id, const FactorConstPtr& factor,
+                    const std::vector<NodeHandle>& nodes);
+  void removeFactor(FactorId id);
   void markMoved(uint32_t keyframe);
   void writeMovedPoses() const;
 
@@ -124,8 +151,11 @@ class LayeredGraph {
   std::vector<std::optional<KeyframeNetwork::Edge>> edges_;  ///< Of each factor, in the network.
   std::unordered_map<FactorId, uint32_t> factor_slots_;
   Topology topology_;
+  FactorShelf shelf_;
+  std::set<KeyframeId> broken_shelves_;
   uint64_t next_factor_ = 0;
   uint64_t erasures_ = 0;
+  uint64_t losses_ = 0;
   Pose T_map_odom_ = Pose::Identity();
 
   mutable std::vector<uint32_t> moved_;     ///< Slots of keyframes, since the last snapshot.

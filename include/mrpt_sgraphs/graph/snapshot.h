@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "mrpt_sgraphs/factors/relative_pose.h"
+#include "mrpt_sgraphs/graph/factor_shelf.h"
 #include "mrpt_sgraphs/graph/nodes.h"
 #include "mrpt_sgraphs/graph/shared_vector.h"
 
@@ -36,6 +37,7 @@ struct GraphSnapshot {
   SharedVector<FloorNode> floors;
   SharedVector<StoredFactor>
       factors;  ///< In the order in which they came as long as none was erased.
+  SharedVector<ShelvedFactor> shelved;
 };
 
 using GraphSnapshotConstPtr = std::shared_ptr<const GraphSnapshot>;

@@ -71,7 +71,7 @@ class RoomLayer {
   RightAngles exactness_;  ///< Of the building, as far as it is known, and what from:
   std::vector<WallId> measured_walls_;
   double measured_keyframes_ = 0.0;
-  uint64_t erasures_ = 0;  ///< Of the graph, when it was last looked at.
+  uint64_t losses_ = 0;  ///< Of the graph, when it was last looked at.
 };
 
 }  // namespace mrpt_sgraphs

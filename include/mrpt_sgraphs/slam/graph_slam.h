@@ -44,6 +44,10 @@ class GraphSlam {
   /// Optimizes the whole graph now; walls that grow together by it are merged.
   OptimizationSummary optimize();
 
+  /// From now on. To `baseline` all that was dropped comes back, with the factors that it had.
+  /// @throws std::invalid_argument for a mode that is none.
+  void setHierarchy(const HierarchyConfig& hierarchy);
+
   /// What the graph is now; the same object until it changes.
   GraphSnapshotConstPtr snapshot() const;
 

@@ -4,6 +4,7 @@
 
 #include "mrpt_sgraphs/frontend/ground_layer_config.h"
 #include "mrpt_sgraphs/frontend/wall_layer_config.h"
+#include "mrpt_sgraphs/hierarchy/hierarchy_config.h"
 #include "mrpt_sgraphs/semantics/loop_closer.h"
 #include "mrpt_sgraphs/semantics/room_layer_config.h"
 #include "mrpt_sgraphs/slam/solver_config.h"
@@ -16,6 +17,7 @@ struct GraphSlamConfig {
   WallLayerConfig walls;
   GroundLayerConfig ground;
   RoomLayerConfig rooms;
+  HierarchyConfig hierarchy;
   SolverConfig solver;
 };
 

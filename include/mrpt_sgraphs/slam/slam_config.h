@@ -35,6 +35,7 @@ struct SlamConfig : GraphSlamConfig {
     section("floors", self.floors);
     section("room_detection", self.room_detection);
     section("rooms", self.rooms);
+    section("hierarchy", self.hierarchy);
     section("solver", self.solver);
   }
 };
