@@ -38,7 +38,7 @@ class CondensedFactor final : public Factor {
     /// Of a keyframe: covariance of T_kept_other, right perturbation of the other, by the relative
     /// poses alone that were eliminated, added up along the most certain way. None: there is no way.
     /// Not in the cost: it says how far to look for what may be the same.
-    std::optional<Matrix6> way_covariance;
+    std::optional<Matrix6> way_covariance = std::nullopt;
   };
 
   /// The quadratic, rows in the order of the nodes.
