@@ -202,7 +202,8 @@ void WallLayer::dropErased(LayeredGraph* graph) {
     WallTrack& track = entry->second;
     mrpt_sgraphs::dropErased(*graph, &track.sightings);
     bool gone = track.id ? !graph->contains(*track.id) : track.sightings.empty();
-    if (!gone && track.id && graph->factorCountOf(*track.id) == 0) {
+    if (!gone && track.id && graph->factorCountOf(*track.id) == 0 &&
+        graph->shelf().of(*track.id).empty()) {
       graph->eraseNode(*track.id);
       gone = true;
     }

@@ -55,6 +55,7 @@ FactorId WallLayer::addPair(const WallTrack& a, const WallTrack& b, LayeredGraph
       nearest = sighting.keyframe;
     }
   }
+  nearest = graph->attributes(nearest).representative.value_or(nearest);
   const Pose T_map_base = graph->pose(nearest);
   const Plane a_base = inverseTimes(T_map_base, a.plane_map);
   const Plane b_base = inverseTimes(T_map_base, b.plane_map);

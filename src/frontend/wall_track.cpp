@@ -3,6 +3,7 @@
 
 #include "mrpt_sgraphs/frontend/wall_track.h"
 
+#include "mrpt_sgraphs/factors/condensed.h"
 #include "mrpt_sgraphs/factors/room_walls.h"
 #include "mrpt_sgraphs/factors/wall_pair.h"
 
@@ -38,7 +39,8 @@ bool isFree(const WallTrack& track, const LayeredGraph& graph) {
     const Factor* const factor = graph.factor(link.id).get();
     const bool is_renewed = dynamic_cast<const WallPairFactor*>(factor) != nullptr ||
                             dynamic_cast<const RoomWallFactor*>(factor) != nullptr ||
-                            dynamic_cast<const RoomCentreFactor*>(factor) != nullptr;
+                            dynamic_cast<const RoomCentreFactor*>(factor) != nullptr ||
+                            dynamic_cast<const CondensedFactor*>(factor) != nullptr;
     if (!is_renewed) return false;
   }
   return true;

@@ -125,6 +125,12 @@ FactorId LayeredGraph::addFactor(FactorConstPtr factor) {
   const std::vector<NodeHandle> nodes = validated(factor);
   const FactorId id{next_factor_++};
   insertFactor(id, factor, nodes);
+  for (const NodeHandle node : nodes) {
+    if (node.layer != Layer::kKeyframe || !keyframes_[node.slot].marginalized) continue;
+    for (const FactorId shelved : shelf_.of(nodeAt(node))) {
+      if (shelf_.at(shelved).kept) broken_shelves_.insert(*shelf_.at(shelved).kept);
+    }
+  }
   return id;
 }
 

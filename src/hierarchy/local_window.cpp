@@ -7,23 +7,10 @@
 #include <stdexcept>
 #include <unordered_set>
 
+#include "node_set.h"
+
 namespace mrpt_sgraphs {
 namespace {
-
-/// Nodes in the order in which they were found, each once.
-class FoundNodes {
- public:
-  bool add(NodeHandle node) {
-    if (!seen_.insert((static_cast<uint64_t>(node.layer) << 32U) | node.slot).second) return false;
-    nodes_.push_back(node);
-    return true;
-  }
-  const std::vector<NodeHandle>& nodes() const { return nodes_; }
-
- private:
-  std::unordered_set<uint64_t> seen_;
-  std::vector<NodeHandle> nodes_;
-};
 
 /// A sighting that a robust kernel weakens counts as much as it does now.
 PlaneObservationFactor withoutKernel(const PlaneObservationFactor& sighting, const Pose& T_map_base,
@@ -40,42 +27,37 @@ LocalWindow::LocalWindow(std::size_t keyframes) : keyframes_(keyframes) {
   if (keyframes == 0) throw std::invalid_argument("a window needs at least one keyframe");
 }
 
-void LocalWindow::forget() {
-  sums_.clear();
-  summed_keyframes_ = 0;
-  known_factors_ = 0;
-}
+void LocalWindow::forget() { sums_.clear(); }
 
-void LocalWindow::add(const LayeredGraph& graph, uint32_t factor) {
-  const auto* sighting =
-      dynamic_cast<const PlaneObservationFactor*>(graph.factorAt(factor).factor.get());
-  if (sighting == nullptr) return;
-  const NodeHandle surface = graph.topology().ends(factor)[1].node;
-  const Pose T_map_base = graph.pose(graph.topology().ends(factor)[0].node);
+const ObservationSum& LocalWindow::sumOf(const LayeredGraph& graph, NodeHandle surface,
+                                         uint32_t first_in_window) {
+  const Topology& topology = graph.topology();
+  const Topology::Links& links = topology.sightings(surface);
+  const auto keyframeOf = [&topology](const FactorLink& link) {
+    return topology.ends(link.slot)[0].node;
+  };
+  Sum& known = sums_[graph.nodeAt(surface)];
+  const auto still_there =
+      std::count_if(links.begin(), links.end(), [&](const FactorLink& link) {
+        return keyframeOf(link).slot < known.summed_below;
+      });
+  const bool is_good = known.erasures == graph.erasures() && known.count == still_there &&
+                       first_in_window >= known.summed_below;
+  if (!is_good) known = Sum();
+  known.erasures = graph.erasures();
   const Plane surface_map = graph.plane(surface);
-  const auto found =
-      sums_.try_emplace(sighting->node(1), surface_map, T_map_base.translation()).first;
-  found->second.add(withoutKernel(*sighting, T_map_base, surface_map), T_map_base);
-}
-
-void LocalWindow::catchUp(const LayeredGraph& graph, uint32_t first_in_window) {
-  if (graph.erasures() != erasures_ || first_in_window < summed_keyframes_) forget();
-  erasures_ = graph.erasures();
-  // new factors of keyframes that have left already
-  const auto factors = static_cast<uint32_t>(graph.factorCount());
-  for (uint32_t factor = known_factors_; factor < factors; ++factor) {
-    const auto& ends = graph.topology().ends(factor);
-    const NodeHandle first = ends[0].node;
-    if (first.layer == Layer::kKeyframe && first.slot < summed_keyframes_) add(graph, factor);
+  for (const FactorLink& link : links) {
+    const NodeHandle keyframe = keyframeOf(link);
+    if (keyframe.slot < known.summed_below || keyframe.slot >= first_in_window) continue;
+    const auto* sighting =
+        dynamic_cast<const PlaneObservationFactor*>(graph.factorAt(link.slot).factor.get());
+    if (sighting == nullptr) continue;
+    const Pose T_map_base = graph.pose(keyframe);
+    if (known.count++ == 0) known.sum = ObservationSum(surface_map, T_map_base.translation());
+    known.sum.add(withoutKernel(*sighting, T_map_base, surface_map), T_map_base);
   }
-  known_factors_ = factors;
-  // keyframes that leave now
-  for (; summed_keyframes_ < first_in_window; ++summed_keyframes_) {
-    for (const FactorLink& link :
-         graph.topology().sightings({Layer::kKeyframe, summed_keyframes_})) {
-      add(graph, link.slot);
-    }
-  }
+  known.summed_below = first_in_window;
+  return known.sum;
 }
 
 Selection LocalWindow::select(const LayeredGraph& graph) {
@@ -83,16 +65,16 @@ Selection LocalWindow::select(const LayeredGraph& graph) {
   const auto first = static_cast<uint32_t>(count > keyframes_ ? count - keyframes_ : 0);
   const auto first_free = static_cast<uint32_t>(
       count > keyframes_ ? first : std::min<std::size_t>(count, 1));  // something has to stay
-  catchUp(graph, first_free);
-
   const Topology& topology = graph.topology();
-  FoundNodes free;
-  FoundNodes all;
+  NodeSet free;
+  NodeSet all;
   const auto addFree = [&](NodeHandle node) {
     if (all.add(node)) free.add(node);
   };
   if (first_free > first && count > 0) all.add({Layer::kKeyframe, first});
-  for (uint32_t slot = first_free; slot < count; ++slot) addFree({Layer::kKeyframe, slot});
+  for (uint32_t slot = first_free; slot < count; ++slot) {
+    if (topology.linkCount({Layer::kKeyframe, slot}) > 0) addFree({Layer::kKeyframe, slot});
+  }
   for (uint32_t slot = first; slot < count; ++slot) {
     for (const FactorLink& link : topology.sightings({Layer::kKeyframe, slot})) {
       const NodeHandle surface = topology.ends(link.slot)[1].node;
@@ -131,8 +113,7 @@ Selection LocalWindow::select(const LayeredGraph& graph) {
   }
   for (const NodeId node : window.free) {
     if (node.layer != Layer::kWall) continue;
-    const auto sum = sums_.find(node);
-    window.sums.emplace_back(node, sum == sums_.end() ? ObservationSum() : sum->second);
+    window.sums.emplace_back(node, sumOf(graph, graph.handle(node), first_free));
   }
   return window;
 }

@@ -71,19 +71,19 @@ struct SeenWall {
 
 std::optional<SeenWall> seen(WallId id, const LayeredGraph& graph) {
   constexpr std::size_t kMinSightings = 3;
-  const Topology::Links& sightings = graph.sightingsOf(id);
-  if (sightings.size() < kMinSightings) return std::nullopt;
-  std::vector<FactorId> ids;
-  for (const FactorLink& link : sightings) ids.push_back(link.id);
+  std::vector<FactorId> ids = graph.shelf().of(id);
+  for (const FactorLink& link : graph.sightingsOf(id)) ids.push_back(link.id);
   std::sort(ids.begin(), ids.end());
   const Plane plane_map = graph.plane(id);
   const auto poseOf = [&graph](const Factor& factor) {
     return graph.pose(KeyframeId{factor.node(0).value});
   };
   ObservationSum sum;
+  std::size_t count = 0;
   for (const FactorId factor : ids) {
     const auto* sight = dynamic_cast<const PlaneObservationFactor*>(graph.factor(factor).get());
     if (sight == nullptr) continue;
+    ++count;
     const Pose T_map_base = poseOf(*sight);
     if (sum.A.isZero()) sum = ObservationSum(plane_map, T_map_base.translation());
     const double weight = sight->kernel().weight(sight->chi2(T_map_base, plane_map));
@@ -91,7 +91,7 @@ std::optional<SeenWall> seen(WallId id, const LayeredGraph& graph) {
         {KeyframeId{sight->node(0).value}, id, sight->measured_base, weight * sight->information()},
         T_map_base);
   }
-  if (sum.A.isZero()) return std::nullopt;
+  if (count < kMinSightings) return std::nullopt;
   const Plane plane = fitted(sum, plane_map);
   const SummedObservationsFactor factor(id, sum);
   const VariableView value(plane);
@@ -99,7 +99,7 @@ std::optional<SeenWall> seen(WallId id, const LayeredGraph& graph) {
   Eigen::Vector3d g;
   SeenWall wall;
   wall.chi2 = factor.linearize(&value, H.data(), g.data());
-  wall.freedom = 3.0 * static_cast<double>(sightings.size()) - 3.0;
+  wall.freedom = 3.0 * static_cast<double>(count) - 3.0;
   const Eigen::Matrix3d covariance = H.inverse();
   if (!covariance.allFinite()) return std::nullopt;
   const TangentBasis basis = tangentBasis(plane.normal);

@@ -102,8 +102,12 @@ class Factors {
     information.bottomRightCorner<3, 3>() =
         inverseSquare(kPoseSigma_rad) * openDirections(held_rotation_);
     if (information.isZero()) return;
+    const KeyframeId stays =
+        graph_.attributes(room_.anchor).representative.value_or(room_.anchor);
+    const Pose T_stays_room = orthonormalized(graph_.pose(stays).inverse() *
+                                              graph_.pose(room_.anchor) * room_.T_anchor_room);
     factors_.push_back(std::make_shared<RelativePoseFactor>(
-        room_.anchor, id_, room_.T_anchor_room, information, RelativePoseFactor::Kind::kRoom));
+        stays, id_, T_stays_room, information, RelativePoseFactor::Kind::kRoom));
   }
 
   const std::vector<FactorConstPtr>& all() const { return factors_; }

@@ -115,6 +115,7 @@ DetectedRoom inGraph(DetectedRoom room, const LayeredGraph& graph) {
 }  // namespace
 
 bool RoomLayer::update(const RoomDetection& detection, LayeredGraph* graph) {
+  changed_.clear();
   std::vector<DetectedRoom> rooms;
   for (const DetectedRoom& room : detection.rooms) rooms.push_back(inGraph(room, *graph));
   std::vector<std::optional<RoomId>> nodes = matchRooms(rooms, *graph);
@@ -132,7 +133,9 @@ bool RoomLayer::update(const RoomDetection& detection, LayeredGraph* graph) {
   updateExactness(rooms, *graph);
   for (std::size_t k = 0; k < rooms.size(); ++k) {
     if (!nodes[k]) continue;
-    if (bringInLine(*nodes[k], rooms[k], attributes[k], graph)) changed = true;
+    if (!bringInLine(*nodes[k], rooms[k], attributes[k], graph)) continue;
+    changed_.push_back(*nodes[k]);
+    changed = true;
   }
   assignKeyframes(detection, nodes, graph);
   return changed;

@@ -10,79 +10,31 @@
 
 #include "mrpt_sgraphs/frontend/ground_layer.h"
 #include "mrpt_sgraphs/frontend/wall_layer.h"
-#include "mrpt_sgraphs/hierarchy/optimize_selection.h"
+#include "mrpt_sgraphs/hierarchy/condense.h"
+#include "mrpt_sgraphs/hierarchy/transfer.h"
 #include "mrpt_sgraphs/semantics/floor_layer.h"
 #include "mrpt_sgraphs/semantics/room_layer.h"
 #include "mrpt_sgraphs/semantics/room_reunion.h"
+#include "stages.h"
 
 namespace mrpt_sgraphs {
-namespace {
-
-/// "keyframe 7 and 3 more nodes may move in 6 directions that no factor holds"
-std::string sentence(const GaugeFreedom& freedom) {
-  std::string text = nameOf(freedom.nodes.empty() ? freedom.held : freedom.nodes.front());
-  if (freedom.nodes.size() > 1) {
-    text += " and " + std::to_string(freedom.nodes.size() - 1) + " more nodes";
-  }
-  return text + " may move in " + std::to_string(freedom.dimensions) +
-         " directions that no factor holds";
-}
-
-KeyframeRuns keyframesOf(const std::vector<NodeId>& nodes) {
-  KeyframeRuns keyframes;
-  for (const NodeId node : nodes) {
-    if (node.layer == Layer::kKeyframe) keyframes.add(KeyframeId{node.value});
-  }
-  return keyframes;
-}
-
-OptimizationSummary summaryOf(const OptimizerReport& report, const Selection& selection,
-                              const LayeredGraph& graph) {
-  OptimizationSummary summary;
-  summary.kind = "full";
-  summary.mode = "baseline";
-  for (uint32_t slot = 0; slot < graph.size(Layer::kKeyframe); ++slot) {
-    const KeyframeId id{graph.nodeAt({Layer::kKeyframe, slot}).value};
-    ++(graph.attributes(id).marginalized ? summary.keyframes_marginalized
-                                         : summary.keyframes_active);
-  }
-  summary.walls = static_cast<int>(graph.size(Layer::kWall));
-  summary.rooms = static_cast<int>(graph.size(Layer::kRoom));
-  summary.floors = static_cast<int>(graph.size(Layer::kFloor));
-  summary.factors = report.factors;
-  summary.free_variables = report.free_tangents;
-  summary.free_keyframes = keyframesOf(selection.free);
-  summary.fixed_keyframes = keyframesOf(selection.fixed);
-  summary.iterations = report.iterations;
-  summary.cost_before = report.cost_before;
-  summary.cost_after = report.cost_after;
-  // where the answer is one of many there is nothing to converge to
-  summary.converged = report.converged && report.gauge.empty();
-  summary.problem = report.problem;
-  if (report.problem.empty() && !report.gauge.empty()) {
-    summary.problem = sentence(report.gauge.front());
-  }
-  summary.total_ms = report.total_ms;
-  summary.linearize_ms = report.linearize_ms;
-  summary.factorize_ms = report.factorize_ms;
-  return summary;
-}
-
-}  // namespace
-
 struct GraphSlam::State {
+  enum class Stage { kLocal, kRooms, kEverything, kAfterLoop };
+
   explicit State(const GraphSlamConfig& config)
       : config(config),
         loop_closer(config.loop_closure),
         walls(config.walls),
         ground(config.ground),
-        rooms(config.rooms) {}
+        rooms(config.rooms),
+        stages(std::make_unique<Stages>(config.hierarchy, config.solver.optimizer)) {}
 
   bool associate();
   void addLoop(const LoopClosure& loop);
   bool reuniteRooms();
-  OptimizationSummary optimizeOnce();
-  void settle(bool after_loop, std::vector<OptimizationSummary>* optimizations);
+  std::optional<FloorId> storeyOf(const LoopClosure& loop) const;
+  void optimize(Stage stage, std::vector<OptimizationSummary>* optimizations);
+  void settle(Stage stage, std::vector<OptimizationSummary>* optimizations);
 
   GraphSlamConfig config;
   LayeredGraph graph;
@@ -92,7 +44,8 @@ struct GraphSlam::State {
   GroundLayer ground;
   RoomLayer rooms;
   double reunion_tried_at_m = -std::numeric_limits<double>::infinity();
-  Optimizer optimizer;
+  std::unique_ptr<Stages> stages;
+  std::optional<FloorId> loop_storey;  ///< Where all of the last loop lies.
 };
 
 /// The planes of the newest keyframe.
@@ -105,11 +58,42 @@ bool GraphSlam::State::associate() {
   return grounded || walled;
 }
 
+/// A loop that was found at a dropped keyframe ends at the one that this moves with.
 void GraphSlam::State::addLoop(const LoopClosure& loop) {
   const RobustKernel doubt{RobustKernel::Kind::kCauchy, config.solver.loop_kernel_chi2};
-  graph.addFactor(
-      std::make_shared<RelativePoseFactor>(loop.from, loop.to, loop.T_from_to, loop.information,
-                                           RelativePoseFactor::Kind::kLoopClosure, doubt));
+  const RelativePoseFactor edge(loop.from, loop.to, loop.T_from_to, loop.information,
+                                RelativePoseFactor::Kind::kLoopClosure, doubt);
+  loop_storey = storeyOf(loop);
+  const std::optional<KeyframeId> stays = graph.attributes(loop.from).representative;
+  if (!stays) {
+    graph.addFactor(std::make_shared<RelativePoseFactor>(edge));
+    return;
+  }
+  std::vector<FactorConstPtr> known;
+  for (const FactorId id : graph.shelf().of(loop.from)) known.push_back(graph.factor(id));
+  for (const FactorLink& link : graph.otherFactorsOf(*stays)) {
+    const FactorConstPtr& factor = graph.factor(link.id);
+    if (dynamic_cast<const CondensedFactor*>(factor.get()) != nullptr) known.push_back(factor);
+  }
+  const Matrix6 covariance = relativeCovariance(known, *stays, loop.from, graph);
+  const RelativePoseFactor moved = transferred(edge, loop.from, *stays, covariance, graph);
+  graph.addFactor(std::make_shared<RelativePoseFactor>(
+      *stays, loop.to, moved.T_from_to, moved.information(),
+      RelativePoseFactor::Kind::kLoopClosure, doubt));
+}
+
+/// None: its way leads over stairs, or there is but one storey.
+std::optional<FloorId> GraphSlam::State::storeyOf(const LoopClosure& loop) const {
+  const std::optional<FloorId> floor = graph.attributes(loop.from).floor;
+  if (!floor || graph.size(Layer::kFloor) < 2) return std::nullopt;
+  const uint32_t last = graph.handle(loop.to).slot;
+  for (uint32_t slot = graph.handle(loop.from).slot; slot <= last; ++slot) {
+    const KeyframeId id{graph.nodeAt({Layer::kKeyframe, slot}).value};
+    // the newest ones may not have been told yet
+    const std::optional<FloorId>& on = graph.attributes(id).floor;
+    if (on != floor && (on || slot != last)) return std::nullopt;
+  }
+  return floor;
 }
 
 /// Closes a loop if the newest keyframe is in a room that the map has twice.
@@ -127,30 +111,37 @@ bool GraphSlam::State::reuniteRooms() {
   return loop.has_value();
 }
 
-OptimizationSummary GraphSlam::State::optimizeOnce() {
-  const Selection selection = selectAll(graph);
-  const OptimizerReport report =
-      optimizeSelection(selection, config.solver.optimizer, &optimizer, &graph);
-  const uint32_t keyframes = static_cast<uint32_t>(graph.size(Layer::kKeyframe));
-  OptimizationSummary summary = summaryOf(report, selection, graph);
-  if (keyframes > 0) {
-    const NodeHandle newest{Layer::kKeyframe, keyframes - 1};
-    const KeyframeAttributes& attributes = graph.attributes(KeyframeId{graph.nodeAt(newest).value});
-    summary.stamp_s = attributes.stamp_s;
-    graph.setMapOdom(orthonormalized(graph.pose(newest) * attributes.T_odom_base.inverse()));
+void GraphSlam::State::optimize(Stage stage, std::vector<OptimizationSummary>* optimizations) {
+  constexpr std::size_t kFew = 3;  // more rooms are optimized faster with all the rest
+  const std::vector<RoomId>& changed = rooms.changed();
+  if (stage == Stage::kRooms && (changed.empty() || !stages->compresses())) stage = Stage::kLocal;
+  if (stage == Stage::kRooms && changed.size() > kFew) stage = Stage::kEverything;
+  switch (stage) {
+    case Stage::kLocal:
+      optimizations->push_back(stages->local(&graph));
+      break;
+    case Stage::kRooms:
+      for (const RoomId room : changed) optimizations->push_back(stages->room(room, &graph));
+      break;
+    case Stage::kEverything:
+      optimizations->push_back(stages->global(std::nullopt, &graph));
+      break;
+    case Stage::kAfterLoop:
+      optimizations->push_back(stages->global(loop_storey, &graph));
+      break;
   }
-  return summary;
 }
 
 /// Optimizes until the walls stay what they are.
-void GraphSlam::State::settle(bool after_loop, std::vector<OptimizationSummary>* optimizations) {
+void GraphSlam::State::settle(Stage stage, std::vector<OptimizationSummary>* optimizations) {
+  const bool after_loop = stage == Stage::kAfterLoop;
   // Each round but the first is for walls that were merged or split in the one before; what is left
   // then waits for the next keyframe.
   constexpr int kMaxRounds = 3;
   if (after_loop && config.walls.enabled) walls.release(&graph);
   for (int round = 0; round < kMaxRounds; ++round) {
     rooms.mend(&graph);
-    optimizations->push_back(optimizeOnce());
+    optimize(stage, optimizations);
     rooms.follow(&graph);
     if (!config.walls.enabled || graph.size(Layer::kKeyframe) == 0) return;
     const bool widened = after_loop && round == 0;
@@ -204,33 +195,44 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
     ++outcome.loop_closures;
   }
   const bool has_loops = outcome.loop_closures > 0;
-  if (has_surfaces || has_loops) state_->settle(has_loops, &outcome.optimizations);
+  if (has_surfaces || has_loops) {
+    using Stage = State::Stage;
+    state_->settle(has_loops ? Stage::kAfterLoop : Stage::kLocal, &outcome.optimizations);
+  }
+  state_->stages->compress(false, &graph, &outcome.optimizations);
   return outcome;
 }
 
 std::vector<OptimizationSummary> GraphSlam::setFloors(const FloorDetection& detection) {
   std::vector<OptimizationSummary> optimizations;
   if (updateFloors(detection, &state_->ground, &state_->graph)) {
-    state_->settle(false, &optimizations);
+    state_->settle(State::Stage::kEverything, &optimizations);
   }
   return optimizations;
 }
 
 std::vector<OptimizationSummary> GraphSlam::setRooms(const RoomDetection& detection) {
   std::vector<OptimizationSummary> optimizations;
-  if (state_->rooms.update(detection, &state_->graph)) state_->settle(false, &optimizations);
-  if (state_->reuniteRooms()) state_->settle(true, &optimizations);
+  const bool changed = state_->rooms.update(detection, &state_->graph);
+  if (changed) state_->settle(State::Stage::kRooms, &optimizations);
+  if (state_->reuniteRooms()) state_->settle(State::Stage::kAfterLoop, &optimizations);
+  state_->stages->compress(changed, &state_->graph, &optimizations);
   return optimizations;
 }
 
 OptimizationSummary GraphSlam::optimize() {
   std::vector<OptimizationSummary> optimizations;
-  state_->settle(false, &optimizations);
+  state_->settle(State::Stage::kEverything, &optimizations);
   return optimizations.back();
 }
 
+OptimizationSummary GraphSlam::resolveDropped() { return state_->stages->resolve(&state_->graph); }
+
 void GraphSlam::setHierarchy(const HierarchyConfig& hierarchy) {
+  auto stages = std::make_unique<Stages>(hierarchy, state_->config.solver.optimizer);
+  if (hierarchy.mode != state_->config.hierarchy.mode) state_->stages->restore(&state_->graph);
   state_->config.hierarchy = hierarchy;
+  state_->stages = std::move(stages);
 }
 
 GraphSnapshotConstPtr GraphSlam::snapshot() const { return state_->graph.snapshot(); }

@@ -60,8 +60,8 @@ void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track);
 /// One more sighting, and the extent with it.
 void extend(const SurfaceSighting& sighting, const LayeredGraph& graph, WallTrack* track);
 
-/// Nothing but sightings, pairs and rooms ties the track's wall to the rest: they are found again
-/// when it has become another.
+/// Nothing but sightings, condensed or not, pairs and rooms ties the track's wall to the rest: they
+/// are found again when it has become another.
 bool isFree(const WallTrack& track, const LayeredGraph& graph);
 
 }  // namespace mrpt_sgraphs

@@ -58,8 +58,8 @@ class LayeredGraph {
   void shelve(FactorId id, std::optional<KeyframeId> kept);
   void unshelve(FactorId id);
   const FactorShelf& shelf() const { return shelf_; }
-  /// The condensed factor of a kept keyframe is not to be had from its shelved factors any more: some
-  /// were erased since it was made.
+  /// Kept keyframes whose condensed factors do not say any more what the factors of their dropped
+  /// keyframes say: some were erased, or have come.
   const std::set<KeyframeId>& brokenShelves() const { return broken_shelves_; }
   void setMended(KeyframeId kept) { broken_shelves_.erase(kept); }
   void setKept(FactorId id, std::optional<KeyframeId> kept);

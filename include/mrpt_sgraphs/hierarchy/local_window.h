@@ -14,7 +14,7 @@ namespace mrpt_sgraphs {
 /// those walls are free; the keyframes around them, the other walls of the rooms and the ground stay.
 ///
 /// What the keyframes behind the window say on a wall is kept summed up, so that the cost of a window
-/// does not grow with the graph: each keyframe is added to the sums once, when it leaves the window.
+/// does not grow with the graph: each sighting is added once, when its keyframe leaves the window.
 class LocalWindow {
  public:
   /// @param keyframes  N, at least 1.
@@ -29,14 +29,19 @@ class LocalWindow {
   void forget();
 
  private:
-  void catchUp(const LayeredGraph& graph, uint32_t first_in_window);
-  void add(const LayeredGraph& graph, uint32_t factor);
+  /// What is known of a wall from keyframes in places below.
+  struct Sum {
+    ObservationSum sum;
+    uint32_t summed_below = 0;
+    std::ptrdiff_t count = 0;  ///< Of the sightings in it.
+    uint64_t erasures = 0;     ///< Of the graph, when places were noted.
+  };
+
+  const ObservationSum& sumOf(const LayeredGraph& graph, NodeHandle surface,
+                              uint32_t first_in_window);
 
   std::size_t keyframes_;
-  std::unordered_map<NodeId, ObservationSum> sums_;  ///< By wall or floor.
-  uint32_t summed_keyframes_ = 0;                    ///< Places below are in the sums,
-  uint32_t known_factors_ = 0;                       ///< ... as far as factors with places below.
-  uint64_t erasures_ = 0;                            ///< Of the graph, when places were noted.
+  std::unordered_map<NodeId, Sum> sums_;
 };
 
 }  // namespace mrpt_sgraphs

@@ -26,7 +26,27 @@ struct Selection {
   std::vector<SummedObservationsFactor> sums;
 };
 
-/// The whole graph; the first keyframe stays, so that the map does.
+/// All that takes part; the first keyframe stays, so that the map does. Dropped keyframes and what
+/// no factor holds take no part.
 Selection selectAll(const LayeredGraph& graph);
+
+/// The room-local stage (Sec. III-A): free are the keyframes within the room, the walls that they see
+/// and its own, the room and its floor; what else these are tied to stays. If nothing does, the first
+/// keyframe of the room stays.
+///
+/// Which keyframes are within is known by their attributes; of one that is in no room yet, Eq. (1)
+/// tells, see isWithin.
+/// @throws std::out_of_range for a room that is not in the graph.
+Selection selectRoom(const LayeredGraph& graph, RoomId room);
+
+/// One storey, for a loop that was closed on it: its keyframes, their walls, its rooms and the floor
+/// are free; what else these are tied to, on stairs and other storeys, stays.
+/// @throws std::out_of_range for a floor that is not in the graph.
+Selection selectFloor(const LayeredGraph& graph, FloorId floor);
+
+/// Eq. (1): whether a point is on the room's side of all its walls. The normals are turned against
+/// the room's centre first: which way they point in the map tells nothing. Rooms that are not
+/// enclosed by their walls alone, corridors and polygons, are told by their outline.
+bool isWithin(const LayeredGraph& graph, RoomId room, const Eigen::Vector3d& point_map);
 
 }  // namespace mrpt_sgraphs

@@ -44,7 +44,11 @@ class GraphSlam {
   /// Optimizes the whole graph now; walls that grow together by it are merged.
   OptimizationSummary optimize();
 
-  /// From now on. To `baseline` all that was dropped comes back, with the factors that it had.
+  /// Finds dropped keyframes again within their regions: they have moved with kept ones since, also
+  /// where a loop has bent what lies between.
+  OptimizationSummary resolveDropped();
+
+  /// From now on. Where the mode is another one, all that was dropped comes back, with the factors that it had.
   /// @throws std::invalid_argument for a mode that is none.
   void setHierarchy(const HierarchyConfig& hierarchy);
 
