@@ -4,9 +4,13 @@
 #include "mrpt_sgraphs/hierarchy/optimize_selection.h"
 
 #include <array>
+#include <deque>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
+#include <vector>
+
+#include "mrpt_sgraphs/hierarchy/condense.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -140,11 +144,30 @@ class SelectedProblem {
     }
     const Factor& stored = *graph_.factorAt(factor).factor;
     if (complete) {
-      problem_.addFactor(stored, ends_.data());
+      if (!addConditioned(stored)) problem_.addFactor(stored, ends_.data());
     } else if (outside == Selection::Outside::kIsAnError) {
       throw std::invalid_argument(nameOf(graph_.nodeAt(node)) + " is joined by " + stored.type() +
                                   " to " + outsideEndsOf(stored) + ", not in the selection");
     }
+  }
+
+  /// A condensed factor ties a room's nodes together, of which a window has few.
+  /// @return Whether it was one of which enough stays as it is.
+  bool addConditioned(const Factor& factor) {
+    const auto* const condensed = dynamic_cast<const CondensedFactor*>(&factor);
+    if (condensed == nullptr || !problem_.isFixed(ends_[0])) return false;
+    std::vector<VariableView> values;
+    std::vector<bool> is_fixed;
+    std::vector<int> moving;
+    for (const int variable : ends_) {
+      values.push_back(problem_.view(variable));
+      is_fixed.push_back(problem_.isFixed(variable));
+      if (moving.empty() || !is_fixed.back()) moving.push_back(variable);
+    }
+    if (moving.size() == ends_.size()) return false;
+    conditioned_.push_back(conditioned(*condensed, values.data(), is_fixed));
+    problem_.addFactor(conditioned_.back(), moving.data());
+    return true;
   }
 
   std::string outsideEndsOf(const Factor& factor) const {
@@ -158,6 +181,7 @@ class SelectedProblem {
   }
 
   const LayeredGraph& graph_;
+  std::deque<CondensedFactor> conditioned_;
   Problem problem_;
   std::vector<NodeHandle> nodes_;              ///< By variable: first the free, then the fixed.
   VariableNumbers variables_;

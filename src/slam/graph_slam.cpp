@@ -226,7 +226,14 @@ OptimizationSummary GraphSlam::optimize() {
   return optimizations.back();
 }
 
-OptimizationSummary GraphSlam::resolveDropped() { return state_->stages->resolve(&state_->graph); }
+std::vector<OptimizationSummary> GraphSlam::finish() {
+  std::vector<OptimizationSummary> optimizations;
+  if (state_->stages->compresses() && state_->graph.size(Layer::kKeyframe) > 1) {
+    state_->settle(State::Stage::kEverything, &optimizations);
+    optimizations.push_back(state_->stages->resolve(&state_->graph));
+  }
+  return optimizations;
+}
 
 void GraphSlam::setHierarchy(const HierarchyConfig& hierarchy) {
   auto stages = std::make_unique<Stages>(hierarchy, state_->config.solver.optimizer);

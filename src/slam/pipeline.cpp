@@ -66,7 +66,8 @@ void Pipeline::add(const std::vector<OptimizationSummary>& optimizations) {
   optimizations_.insert(optimizations_.end(), optimizations.begin(), optimizations.end());
 }
 
-RunRecord Pipeline::record() const {
+RunRecord Pipeline::record() {
+  add(graph_slam_.finish());
   RunRecord run;
   run.graph = graph_slam_.snapshot();
   run.trajectory = trajectory_.corrected(*run.graph);

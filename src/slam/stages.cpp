@@ -63,6 +63,8 @@ OptimizationSummary Stages::room(RoomId room, LayeredGraph* graph) {
   if (!compresses()) return optimize("full", selectAll(*graph), graph);
   compression_.mend(graph);
   const OptimizationSummary summary = optimize("room_local", selectRoom(*graph, room), graph);
+  optimized_room_ = room;
+  optimized_at_ = graph->size(Layer::kKeyframe);
   window_.forget();
   return summary;
 }
@@ -86,7 +88,7 @@ void Stages::compress(bool changed, LayeredGraph* graph, Summaries* summaries) {
     const std::chrono::duration<double, std::milli> spent =
         std::chrono::steady_clock::now() - start;
     if (hierarchy_.budget_ms > 0.0 && spent.count() > hierarchy_.budget_ms) break;
-    if (plan.room) {
+    if (plan.room && !(optimized_room_ == plan.room && optimized_at_ == graph->size(Layer::kKeyframe))) {
       summaries->push_back(optimize("room_local", selectRoom(*graph, *plan.room), graph));
       watch.lap();
     }
@@ -127,9 +129,18 @@ OptimizationSummary Stages::begun(const char* kind, const LayeredGraph& graph) c
 
 OptimizationSummary Stages::optimize(const char* kind, const Selection& selection,
                                      LayeredGraph* graph) {
+  // what is optimized again with the next keyframe need not be to the last digit now
+  constexpr double kLocalDecrease = 0.05;
+  constexpr double kGlobalDecrease = 1e-4;
   CpuStopwatch watch;
+  OptimizerConfig config = optimizer_config_;
+  if (kind == std::string("local") || kind == std::string("room_local")) {
+    config.min_relative_decrease = std::max(config.min_relative_decrease, kLocalDecrease);
+  } else if (compresses()) {
+    config.min_relative_decrease = std::max(config.min_relative_decrease, kGlobalDecrease);
+  }
   const OptimizerReport report =
-      compression_.followers().optimize(selection, optimizer_config_, &optimizer_, graph);
+      compression_.followers().optimize(selection, config, &optimizer_, graph);
   follow(graph);
   OptimizationSummary summary = begun(kind, *graph);
   summary.factors = report.factors;
@@ -145,7 +156,7 @@ OptimizationSummary Stages::optimize(const char* kind, const Selection& selectio
   if (report.problem.empty() && !report.gauge.empty()) {
     summary.problem = sentence(report.gauge.front());
   }
-  summary.total_ms = report.total_ms;
+  summary.total_ms = watch.lap();  // the problem has to be made as well
   summary.linearize_ms = report.linearize_ms;
   summary.factorize_ms = report.factorize_ms;
   return summary;

@@ -47,6 +47,8 @@ class Stages {
   Optimizer optimizer_;
   LocalWindow window_;
   Compression compression_;
+  std::optional<RoomId> optimized_room_;  ///< The last one,
+  std::size_t optimized_at_ = 0;          ///< and how many keyframes there were then.
 };
 
 }  // namespace mrpt_sgraphs

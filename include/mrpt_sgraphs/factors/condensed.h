@@ -91,23 +91,18 @@ class CondensedFactor final : public Factor {
     hessian.topLeftCorner<6, 6>().noalias() = work.J_kept.transpose() * work.weighted_J_kept;
     gradient.head<6>().noalias() = work.J_kept.transpose() * work.half_gradient;
 
-    Eigen::Index column = 0;
-    for (std::size_t k = 0; k < others_.size(); ++k) {
-      const Eigen::Index columns = tangentSize(others_[k].node.layer);
-      const auto J_k = work.J_other.block(column, 0, columns, columns);
-      gradient.segment(6 + column, columns).noalias() =
-          J_k.transpose() * work.half_gradient.segment(column, columns);
-      hessian.block(6 + column, 0, columns, 6).noalias() =
-          J_k.transpose() * work.weighted_J_kept.middleRows(column, columns);
-      Eigen::Index row = column;
-      for (std::size_t j = k; j < others_.size(); ++j) {
-        const Eigen::Index size = tangentSize(others_[j].node.layer);
-        const Block weighted = Lambda.block(row, column, size, columns) * J_k;
-        hessian.block(6 + row, 6 + column, size, columns).noalias() =
-            work.J_other.block(row, 0, size, size).transpose() * weighted;
-        row += size;
+    // the Jacobians of planes, and of a pose's translation and rotation each, have three columns
+    for (Eigen::Index column = 0; column < rows; column += 3) {
+      const auto J_column = work.J_other.middleRows<3>(column);
+      gradient.segment<3>(6 + column).noalias() =
+          J_column.transpose() * work.half_gradient.segment<3>(column);
+      hessian.block<3, 6>(6 + column, 0).noalias() =
+          J_column.transpose() * work.weighted_J_kept.middleRows<3>(column);
+      for (Eigen::Index row = column; row < rows; row += 3) {
+        const Eigen::Matrix3d weighted = Lambda.block<3, 3>(row, column) * J_column;
+        hessian.block<3, 3>(6 + row, 6 + column).noalias() =
+            work.J_other.middleRows<3>(row).transpose() * weighted;
       }
-      column += columns;
     }
     return cost;
   }
@@ -117,8 +112,8 @@ class CondensedFactor final : public Factor {
   const Quadratic& quadratic() const { return quadratic_; }
 
  private:
-  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
   using Rows6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+  using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
   /// What a linearization needs, in memory that each thread keeps for the next one.
   struct Workspace {
@@ -126,19 +121,21 @@ class CondensedFactor final : public Factor {
         : e(take(rows), rows),
           half_gradient(e.data() + rows, rows),
           J_kept(e.data() + 2 * rows, rows, 6),
-          J_other(e.data() + 8 * rows, rows, 6),
-          weighted_J_kept(e.data() + 14 * rows, rows, 6) {}
+          J_other(e.data() + 8 * rows, rows, 3),
+          weighted_J_kept(e.data() + 11 * rows, rows, 6) {}
 
     static double* take(Eigen::Index rows) {
       thread_local std::vector<double> memory;
-      memory.resize(std::max(memory.size(), static_cast<std::size_t>(20 * rows)));
+      memory.resize(std::max(memory.size(), static_cast<std::size_t>(17 * rows)));
       return memory.data();
     }
 
     Eigen::Map<Eigen::VectorXd> e;
     Eigen::Map<Eigen::VectorXd> half_gradient;  ///< Lambda e - eta
     Eigen::Map<Rows6> J_kept;
-    Eigen::Map<Rows6> J_other;  ///< Of each node's rows with its own tangent: 3 or 6 columns.
+    /// Of three rows each with those three of the tangent that they change with, and no others do: a
+    /// plane's, a pose's translation, its rotation.
+    Eigen::Map<Rows3> J_other;
     Eigen::Map<Rows6> weighted_J_kept;
   };
 
@@ -154,7 +151,7 @@ class CondensedFactor final : public Factor {
             with_jacobians ? &J_kept : nullptr, with_jacobians ? &J_plane : nullptr);
         if (with_jacobians) {
           work->J_kept.middleRows<3>(row) = J_kept;
-          work->J_other.block<3, 3>(row, 0) = J_plane;
+          work->J_other.middleRows<3>(row) = J_plane;
         }
         row += 3;
       } else {
@@ -165,7 +162,8 @@ class CondensedFactor final : public Factor {
             with_jacobians ? &J_kept : nullptr, with_jacobians ? &J_pose : nullptr);
         if (with_jacobians) {
           work->J_kept.middleRows<6>(row) = J_kept;
-          work->J_other.block<6, 6>(row, 0) = J_pose;
+          work->J_other.middleRows<3>(row) = J_pose.topLeftCorner<3, 3>();
+          work->J_other.middleRows<3>(row + 3) = J_pose.bottomRightCorner<3, 3>();
         }
         row += 6;
       }

@@ -30,6 +30,13 @@ std::shared_ptr<const CondensedFactor> condenseInSteps(std::vector<FactorConstPt
                                                        const std::vector<KeyframeId>& dropped,
                                                        const LayeredGraph& graph);
 
+/// A condensed factor whose kept keyframe does not move, on those of its other nodes that do: the
+/// same cost, and what the rest of it costs is worked out once.
+/// @param values    Of its nodes, in their order.
+/// @param is_fixed  Whether each stays as it is; the first, the kept one, does.
+CondensedFactor conditioned(const CondensedFactor& factor, const VariableView* values,
+                            const std::vector<bool>& is_fixed);
+
 /// Covariance of T_from_to, right perturbation of `to`, by these factors alone, everything else
 /// free. Directions that they leave open are taken for known to within a metre or a radian.
 Matrix6 relativeCovariance(const std::vector<FactorConstPtr>& factors, KeyframeId from,

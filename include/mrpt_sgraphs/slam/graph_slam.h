@@ -44,9 +44,9 @@ class GraphSlam {
   /// Optimizes the whole graph now; walls that grow together by it are merged.
   OptimizationSummary optimize();
 
-  /// Finds dropped keyframes again within their regions: they have moved with kept ones since, also
-  /// where a loop has bent what lies between.
-  OptimizationSummary resolveDropped();
+  /// To be called when a run is over: what the stages have put off, a global optimization and dropped
+  /// keyframes found again within their regions as these are now.
+  std::vector<OptimizationSummary> finish();
 
   /// From now on. Where the mode is another one, all that was dropped comes back, with the factors that it had.
   /// @throws std::invalid_argument for a mode that is none.

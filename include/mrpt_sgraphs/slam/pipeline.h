@@ -37,7 +37,7 @@ class Pipeline {
   GraphSnapshotConstPtr graph() const { return graph_slam_.snapshot(); }
 
   /// Everything so far. Durations are the caller's to fill in.
-  RunRecord record() const;
+  RunRecord record();
 
  private:
   void add(const std::vector<OptimizationSummary>& optimizations);
