@@ -162,8 +162,10 @@ bool Compression::condenseRegion(const RegionPlan& plan, LayeredGraph* graph) {
   std::vector<RelativePoseFactor> edges;
   for (const auto& [id, gone] : transfers) {
     const KeyframeId stays = standIn(gone, plan.stay, *graph);
+    std::vector<FactorConstPtr> known = late;  // and what the one that stays sees of the same walls
+    for (const FactorLink& link : graph->sightingsOf(stays)) known.push_back(graph->factor(link.id));
     edges.push_back(transferred(*keyframeEdge(*graph->factor(id)), gone, stays,
-                                relativeCovariance(late, stays, gone, *graph), *graph));
+                                relativeCovariance(known, stays, gone, *graph), *graph));
   }
   if (!last.empty()) {
     condensed = condenseInSteps(late, plan.kept, last, *graph);

@@ -228,9 +228,9 @@ OptimizationSummary GraphSlam::optimize() {
 
 std::vector<OptimizationSummary> GraphSlam::finish() {
   std::vector<OptimizationSummary> optimizations;
-  if (state_->stages->compresses() && state_->graph.size(Layer::kKeyframe) > 1) {
-    state_->settle(State::Stage::kEverything, &optimizations);
-    optimizations.push_back(state_->stages->resolve(&state_->graph));
+  if (state_->graph.size(Layer::kKeyframe) > 1) {
+    state_->stages->finish(&state_->graph, &optimizations);
+    state_->rooms.follow(&state_->graph);
   }
   return optimizations;
 }

@@ -13,6 +13,11 @@
 namespace mrpt_sgraphs {
 namespace {
 
+// What is optimized again with the next keyframe, or the next loop, need not be to the last digit now:
+// an iteration that promises less than this share of the cost is the last one.
+constexpr double kLocalDecrease = 0.05;
+constexpr double kGlobalDecrease = 1e-4;
+
 /// "keyframe 7 and 3 more nodes may move in 6 directions that no factor holds"
 std::string sentence(const GaugeFreedom& freedom) {
   std::string text = nameOf(freedom.nodes.empty() ? freedom.held : freedom.nodes.front());
@@ -54,15 +59,15 @@ Stages::Stages(const HierarchyConfig& hierarchy, const OptimizerConfig& optimize
 }
 
 OptimizationSummary Stages::local(LayeredGraph* graph) {
-  if (!compresses()) return optimize("full", selectAll(*graph), graph);
+  if (!compresses()) return optimize("full", selectAll(*graph), 0.0, graph);
   compression_.mend(graph);
-  return optimize("local", window_.select(*graph), graph);
+  return optimize("local", window_.select(*graph), kLocalDecrease, graph);
 }
 
 OptimizationSummary Stages::room(RoomId room, LayeredGraph* graph) {
-  if (!compresses()) return optimize("full", selectAll(*graph), graph);
+  if (!compresses()) return optimize("full", selectAll(*graph), 0.0, graph);
   compression_.mend(graph);
-  const OptimizationSummary summary = optimize("room_local", selectRoom(*graph, room), graph);
+  const OptimizationSummary summary = optimize("room_local", selectRoom(*graph, room), kLocalDecrease, graph);
   optimized_room_ = room;
   optimized_at_ = graph->size(Layer::kKeyframe);
   window_.forget();
@@ -70,11 +75,11 @@ OptimizationSummary Stages::room(RoomId room, LayeredGraph* graph) {
 }
 
 OptimizationSummary Stages::global(const std::optional<FloorId>& storey, LayeredGraph* graph) {
-  if (!compresses()) return optimize("full", selectAll(*graph), graph);
+  if (!compresses()) return optimize("full", selectAll(*graph), 0.0, graph);
   compression_.mend(graph);
   const OptimizationSummary summary =
-      storey ? optimize("floor_local", selectFloor(*graph, *storey), graph)
-             : optimize("global", selectAll(*graph), graph);
+      storey ? optimize("floor_local", selectFloor(*graph, *storey), kGlobalDecrease, graph)
+             : optimize("global", selectAll(*graph), kGlobalDecrease, graph);
   window_.forget();
   return summary;
 }
@@ -89,7 +94,7 @@ void Stages::compress(bool changed, LayeredGraph* graph, Summaries* summaries) {
         std::chrono::steady_clock::now() - start;
     if (hierarchy_.budget_ms > 0.0 && spent.count() > hierarchy_.budget_ms) break;
     if (plan.room && !(optimized_room_ == plan.room && optimized_at_ == graph->size(Layer::kKeyframe))) {
-      summaries->push_back(optimize("room_local", selectRoom(*graph, *plan.room), graph));
+      summaries->push_back(optimize("room_local", selectRoom(*graph, *plan.room), kLocalDecrease, graph));
       watch.lap();
     }
     compression_.apply(plan, graph);
@@ -101,11 +106,17 @@ void Stages::compress(bool changed, LayeredGraph* graph, Summaries* summaries) {
   }
 }
 
-OptimizationSummary Stages::resolve(LayeredGraph* graph) {
+void Stages::finish(LayeredGraph* graph, Summaries* summaries) {
+  if (!compresses()) return;
+  compression_.mend(graph);
+  summaries->push_back(
+      optimize("global", selectAll(*graph), optimizer_config_.min_relative_decrease, graph));
+  window_.forget();
+  if (hierarchy_.mode != "condensed") return;
   OptimizationSummary summary = begun("resolve", *graph);
   summary.converged = true;
-  if (hierarchy_.mode == "condensed") summary.total_ms = compression_.resolve(optimizer_config_, graph);
-  return summary;
+  summary.total_ms = compression_.resolve(optimizer_config_, graph);
+  summaries->push_back(summary);
 }
 
 OptimizationSummary Stages::begun(const char* kind, const LayeredGraph& graph) const {
@@ -128,17 +139,10 @@ OptimizationSummary Stages::begun(const char* kind, const LayeredGraph& graph) c
 }
 
 OptimizationSummary Stages::optimize(const char* kind, const Selection& selection,
-                                     LayeredGraph* graph) {
-  // what is optimized again with the next keyframe need not be to the last digit now
-  constexpr double kLocalDecrease = 0.05;
-  constexpr double kGlobalDecrease = 1e-4;
+                                     double min_relative_decrease, LayeredGraph* graph) {
   CpuStopwatch watch;
   OptimizerConfig config = optimizer_config_;
-  if (kind == std::string("local") || kind == std::string("room_local")) {
-    config.min_relative_decrease = std::max(config.min_relative_decrease, kLocalDecrease);
-  } else if (compresses()) {
-    config.min_relative_decrease = std::max(config.min_relative_decrease, kGlobalDecrease);
-  }
+  config.min_relative_decrease = std::max(config.min_relative_decrease, min_relative_decrease);
   const OptimizerReport report =
       compression_.followers().optimize(selection, config, &optimizer_, graph);
   follow(graph);

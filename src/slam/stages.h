@@ -30,8 +30,8 @@ class Stages {
   /// @param changed  Rooms have, so it may be more than what keyframes that came tell.
   void compress(bool changed, LayeredGraph* graph, Summaries* summaries);
 
-  /// Finds the dropped keyframes again within their regions as they are now.
-  OptimizationSummary resolve(LayeredGraph* graph);
+  /// The whole graph to the last digit, and the dropped keyframes again within their regions.
+  void finish(LayeredGraph* graph, Summaries* summaries);
 
   /// Everything that was dropped comes back.
   void restore(LayeredGraph* graph) { compression_.restore(graph); }
@@ -39,7 +39,8 @@ class Stages {
   bool compresses() const { return hierarchy_.mode != "baseline"; }
 
  private:
-  OptimizationSummary optimize(const char* kind, const Selection& selection, LayeredGraph* graph);
+  OptimizationSummary optimize(const char* kind, const Selection& selection,
+                               double min_relative_decrease, LayeredGraph* graph);
   OptimizationSummary begun(const char* kind, const LayeredGraph& graph) const;
 
   const HierarchyConfig hierarchy_;

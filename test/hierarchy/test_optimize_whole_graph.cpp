@@ -108,13 +108,12 @@ TEST(OptimizeWholeGraph, OneFalseLoopDoesNotBendTheMap) {
 
 TEST(OptimizeWholeGraph, NamesPartsThatNothingHolds) {
   Rounds rounds(0.1, 0.05, Pose::Identity(), 20);  // keyframes 21 .. 79 hang free
+  rounds.connect(30, 31, Kind::kOdometry, Pose::Identity());
   const OptimizerReport report = rounds.optimize();
-  ASSERT_EQ(report.gauge.size(), kKeyframes - 21);
-  for (const GaugeFreedom& freedom : report.gauge) {
-    EXPECT_EQ(freedom.dimensions, 6);
-    ASSERT_EQ(freedom.nodes.size(), 1U);
-    EXPECT_GT(freedom.nodes[0].value, 20U);
-  }
+  // those that nothing is known of take no part
+  ASSERT_EQ(report.gauge.size(), 1U);
+  EXPECT_EQ(report.gauge[0].dimensions, 6);
+  EXPECT_EQ(report.gauge[0].nodes, (std::vector<NodeId>{KeyframeId{30}, KeyframeId{31}}));
   for (uint64_t k = 0; k < kKeyframes; ++k) {
     EXPECT_TRUE(rounds.graph.pose(KeyframeId{k}).matrix().allFinite()) << k;
   }

@@ -35,7 +35,12 @@ class GraphSlamOnAWalk : public ::testing::Test {
   static void TearDownTestSuite() { delete drifting_; }
 
   static const std::vector<KeyframeWithTruth>* drifting_;
-  GraphSlam slam_{GraphSlamConfig{}};
+  static GraphSlamConfig uncompressed() {
+    GraphSlamConfig config;
+    config.hierarchy.mode = "baseline";
+    return config;
+  }
+  GraphSlam slam_{uncompressed()};
 };
 const std::vector<KeyframeWithTruth>* GraphSlamOnAWalk::drifting_ = nullptr;
 
@@ -142,7 +147,7 @@ TEST_F(GraphSlamOnAWalk, GoesOnAfterKeyframesThatItRefused) {
 }
 
 TEST_F(GraphSlamOnAWalk, SameKeyframesSameGraph) {
-  GraphSlam other{GraphSlamConfig{}};
+  GraphSlam other{uncompressed()};
   for (const KeyframeWithTruth& step : *drifting_) {
     slam_.addKeyframe(step.keyframe);
     other.addKeyframe(step.keyframe);
