@@ -11,100 +11,115 @@
 
 #include "bag_player.h"
 #include "mrpt_sgraphs/io/run_writer.h"
+#include "mrpt_sgraphs/ros/front_end_bag.h"
+#include "mrpt_sgraphs/ros/front_end_recorder.h"
 #include "mrpt_sgraphs/slam/config_file.h"
+#include "offline_options.h"
 #include "progress_bar.h"
 #include "remarks.h"
 
 namespace {
 
 using namespace mrpt_sgraphs;
-namespace po = boost::program_options;
 
 constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
-struct Options {
-  BagRequest bags;
-  std::string out;
-  std::string params;
-  std::string base_frame;
-  bool quiet = false;
+/// What came of the bags.
+struct Played {
+  RunRecord record;
+  std::string damage;  ///< What could not be read; empty if all could.
+  std::string left_out;  ///< "scans on '/points' left out: 3 of 100"
 };
 
-/// Nothing for --help, which has been printed then.
-std::optional<Options> parse(int argc, char** argv) {
-  Options options;
-  po::options_description description(
-      "Runs bags through the pipeline, as fast as the machine allows, and writes what comes out.\n"
-      "\n"
-      "  sgraphs_offline --bag FILE [--bag FILE ...] --points TOPIC --out DIR [options]\n"
-      "\n"
-      "Options");
-  auto add = description.add_options();
-  add("bag", po::value(&options.bags.files)->required(), "a bag; several are played by time");
-  add("points", po::value(&options.bags.points_topic)->required(),
-      "topic of the LiDAR, sensor_msgs/PointCloud2");
-  add("odom", po::value(&options.bags.odom_topic),
-      "topic of the robot's odometry, nav_msgs/Odometry");
-  add("imu", po::value(&options.bags.imu_topic), "topic of the IMU, sensor_msgs/Imu");
-  add("out", po::value(&options.out)->required(), "folder for the results");
-  add("params", po::value(&options.params), "parameter file, see config/default.yaml");
-  add("base-frame", po::value(&options.base_frame),
-      "frame whose trajectory is wanted (default: that of the clouds)");
-  add("duration", po::value(&options.bags.duration_s), "stop after so many seconds of the bag");
-  add("quiet", po::bool_switch(&options.quiet), "no progress bar, no warnings of single scans");
-  add("help,h", "shows this");
-
-  const po::parsed_options parsed = po::parse_command_line(
-      argc, argv, description,
-      po::command_line_style::unix_style & ~po::command_line_style::allow_guessing);
-  for (const auto& option : parsed.options) {
-    if (option.position_key < 0) continue;  // boost would pass over it in silence
-    throw po::error("'" + option.value.front() + "' belongs to no option");
-  }
-  po::variables_map values;
-  po::store(parsed, values);
-  if (values.count("help") > 0) {
-    std::cout << description;
-    return std::nullopt;
-  }
-  po::notify(values);
-  if (values.count("duration") > 0 && !(options.bags.duration_s > 0.0)) {
-    throw po::error("--duration must be positive");
-  }
-  return options;
+SlamConfig configOf(const OfflineOptions& options) {
+  SlamConfig config = options.params.empty() ? SlamConfig{} : loadConfigFile(options.params);
+  if (!options.mode.empty()) config.hierarchy.mode = options.mode;
+  config.hierarchy.budget_ms = 0.0;  // the same input is to give the same bytes
+  return config;
 }
 
-void run(const Options& options) {
-  const SlamConfig config = options.params.empty() ? SlamConfig{} : loadConfigFile(options.params);
+std::runtime_error nothingUsable(const std::string& what, std::size_t messages,
+                                 const std::string& topic, const std::string& damage) {
+  return std::runtime_error("no usable " + what + " among the " + std::to_string(messages) +
+                            " on '" + topic + "'; nothing is written" +
+                            (damage.empty() ? "" : ". " + damage));
+}
+
+FrontEndListener listenerOf(std::optional<FrontEndRecorder>* recorder) {
+  return {[recorder](const OdometryResult& scan) { (*recorder)->add(scan); },
+          [recorder](const Keyframe& keyframe, double segment_ms) {
+            (*recorder)->add(keyframe, segment_ms);
+          }};
+}
+
+Played playBags(const OfflineOptions& options, ProgressBar* bar, Remarks* remarks) {
+  std::optional<FrontEndRecorder> recorder;
+  const bool records = !options.record.empty();
+  Pipeline pipeline(configOf(options), records ? listenerOf(&recorder) : FrontEndListener{});
+  BagSource source(options.bags);
+  BagPlayer player(options.bags, options.base_frame, &source, &pipeline, remarks);
+  requireWritableFolder(options.out);  // before the work, not after it
+  if (records) recorder.emplace(options.record);
+
+  const std::string damage = player.play(bar);
+  const std::string& topic = options.bags.points_topic;
+  const std::size_t scans = pipeline.scans();
+  if (scans == 0) throw nothingUsable("scan", player.clouds(), topic, damage);
+  if (records) recorder->close();
+  return {pipeline.record(), damage,
+          "scans on '" + topic + "' left out: " + std::to_string(player.clouds() - scans) + " of " +
+              std::to_string(player.clouds())};
+}
+
+Played replay(const OfflineOptions& options, ProgressBar* bar, Remarks* remarks) {
+  BackEnd back_end(configOf(options));
+  FrontEndBag bag(options.replay, options.bags.duration_s);
+  requireWritableFolder(options.out);
+
+  std::size_t refused = 0;
+  FrontEndHandlers handlers;
+  handlers.scan = [&](const ScanMotion& scan, const ScanReport& report) {
+    back_end.addScan(scan, report);
+  };
+  handlers.keyframe = [&](const Keyframe& keyframe, double segment_ms) {
+    try {
+      back_end.addKeyframe(keyframe, segment_ms);
+    } catch (const std::invalid_argument& error) {
+      ++refused;
+      remarks->add(bag.keyframeTopic(), keyframe.stamp_s, error.what() + std::string("; left out"));
+    }
+  };
+  handlers.remark = [&](const std::string& topic, double stamp_s, const std::string& remark) {
+    ++refused;
+    remarks->add(topic, stamp_s, remark);
+  };
+  handlers.progress = [bar](double done) { bar->show(done); };
+  const std::string damage = bag.play(handlers);
+  const std::size_t keyframes = back_end.graph()->keyframes.size();
+  if (keyframes == 0) throw nothingUsable("keyframe", refused, bag.keyframeTopic(), damage);
+  return {back_end.record(), damage, "messages left out: " + std::to_string(refused)};
+}
+
+void run(const OfflineOptions& options) {
   ProgressBar bar(!options.quiet);
   Remarks remarks(!options.quiet, &bar);
-  Pipeline pipeline(config);
-  BagSource source(options.bags);
-  BagPlayer player(options.bags, options.base_frame, &source, &pipeline, &remarks);
-  requireWritableFolder(options.out);  // before the work, not after it
-
   const auto start = std::chrono::steady_clock::now();
-  const std::string damage = player.play(&bar);
+  Played played = (options.replay.empty() ? playBags : replay)(options, &bar, &remarks);
   bar.clear();
-  if (pipeline.scans() == 0) {
-    throw std::runtime_error("no usable scan among the " + std::to_string(player.clouds()) +
-                             " on '" + options.bags.points_topic + "'; nothing is written" +
-                             (damage.empty() ? "" : ". " + damage));
-  }
 
-  RunRecord record = pipeline.record();
-  record.data_s = record.scans.back().stamp_s - record.scans.front().stamp_s;
+  RunRecord& record = played.record;
   record.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   writeRun(options.out, record);
   std::printf("%zu scans, %zu keyframes, %.1f s of data in %.1f s: %s\n", record.scans.size(),
               record.graph->keyframes.size(), record.data_s, record.wall_s, options.out.c_str());
   if (remarks.count() > 0) {
-    std::fprintf(stderr, "messages remarked on: %zu; scans on '%s' left out: %zu of %zu\n",
-                 remarks.count(), options.bags.points_topic.c_str(),
-                 player.clouds() - pipeline.scans(), player.clouds());
+    std::fprintf(stderr, "messages remarked on: %zu; %s\n", remarks.count(),
+                 played.left_out.c_str());
   }
-  if (!damage.empty()) throw std::runtime_error(damage + "; what could be read is written");
+  if (!played.damage.empty()) {
+    throw std::runtime_error(played.damage + "; what could be read is written");
+  }
 }
 
 }  // namespace
@@ -112,9 +127,9 @@ void run(const Options& options) {
 /// Exit code 0: everything is written; 1: it is not; 2: the command line is wrong.
 int main(int argc, char** argv) {
   try {
-    if (const auto options = parse(argc, argv)) run(*options);
+    if (const auto options = parseOfflineOptions(argc, argv)) run(*options);
     return 0;
-  } catch (const po::error& e) {
+  } catch (const boost::program_options::error& e) {
     std::cerr << "sgraphs_offline: " << e.what() << "; --help lists the options\n";
     return kWrongUsage;
   } catch (const std::exception& e) {

@@ -4,22 +4,16 @@
 
 What is measured and shown, a Study says; walls.py and rooms.py are such.
 """
-import argparse
 import csv
-import hashlib
 import json
 import shutil
-import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Dict, NamedTuple, Optional
 
+from cases import all_cases, input_options, parsed, parser_of_cases, programs_of, run_program, simulate
 from tables import print_columns
-
-HERE = Path(__file__).resolve().parent
-BUILDINGS = HERE.parent / "sim/buildings"
-INPUTS = {"none": [], "imu": ["--imu", "/imu"], "odom": ["--odom", "/odom"]}
 
 
 class Study(NamedTuple):
@@ -39,85 +33,6 @@ class Variant(NamedTuple):
     params: Optional[Path]  # None: the defaults
 
 
-class Case(NamedTuple):
-    """A bag with its truth, recorded or yet to be simulated."""
-    set: str
-    sensor: str
-    rotation_deg: float
-    seed: int
-    building: Optional[Path]  # None: recorded
-    bag: Path
-    topic: str
-    truth: Path
-    rooms: Optional[Path] = None  # Boxes of the true rooms, if the truth is no building.
-
-    @property
-    def name(self):
-        return self.bag.stem if self.building is None else self.bag.parent.name
-
-    @property
-    def group(self):
-        """What is averaged over seeds."""
-        if self.building is None:
-            return self.set
-        turned = f" {self.rotation_deg:+g} deg" if self.rotation_deg else ""
-        return f"{self.set} {self.sensor}{turned}"
-
-
-def recorded_case(text):
-    parts = text.split(":")
-    if len(parts) not in (3, 4):
-        raise SystemExit(f"'{text}' is no building and not bag:topic:truth.tum[:rooms.json]")
-    bag = Path(parts[0])
-    rooms = Path(parts[3]) if len(parts) == 4 else None
-    return Case(bag.stem, "", 0.0, 0, None, bag, parts[1], Path(parts[2]), rooms)
-
-
-def simulated_cases(building, arguments):
-    truth = "base_trajectory.tum" if arguments.base_frame else "trajectory.tum"
-    for sensor in arguments.sensors:
-        for rotation_deg in arguments.rotations:
-            for seed in arguments.seeds:
-                turned = f"_r{rotation_deg:g}" if rotation_deg else ""
-                folder = arguments.bags / f"{building.stem}_{sensor}_{seed}{turned}"
-                yield Case(building.stem, sensor, rotation_deg, seed, building, folder / "run.bag",
-                           "/points", folder / "truth" / truth)
-
-
-def all_cases(arguments):
-    for text in arguments.sets or sorted(p.stem for p in BUILDINGS.glob("*.yaml")):
-        building = Path(text) if text.endswith(".yaml") else BUILDINGS / f"{text}.yaml"
-        if building.exists():
-            yield from simulated_cases(building, arguments)
-        else:
-            yield recorded_case(text)
-
-
-def run_program(command, log):
-    with open(log, "w") as file:
-        done = subprocess.run([str(word) for word in command], stdin=subprocess.DEVNULL, stdout=file,
-                              stderr=subprocess.STDOUT)
-    if done.returncode != 0:
-        raise RuntimeError(f"{Path(command[0]).name} failed, see {log}")
-
-
-def simulate(case, programs):
-    """Makes the bag if it is not there, or was made from something else."""
-    options = ["--building", case.building, "--sensor", case.sensor, "--seed", case.seed,
-               "--rotate-deg", f"{case.rotation_deg:g}"]
-    described = " ".join(str(word) for word in options[2:]) + " of building "
-    described += hashlib.sha256(case.building.read_bytes()).hexdigest()
-    folder = case.bag.parent
-    made_from = folder / "made_from.txt"
-    if case.bag.exists() and made_from.exists() and made_from.read_text() == described:
-        return
-    folder.mkdir(parents=True, exist_ok=True)
-    made_from.unlink(missing_ok=True)
-    run_program([programs / "sgraphs_simulate", *options, "--out", folder],
-                folder / "simulate.log")
-    made_from.write_text(described)
-
-
 def measured_in(evaluation, steps):
     """None if it was not measured."""
     value = evaluation
@@ -128,28 +43,31 @@ def measured_in(evaluation, steps):
     return value
 
 
+def evaluated(case, run, programs):
+    """What sgraphs_evaluate says of a run."""
+    evaluate = [programs / "sgraphs_evaluate", "--truth", case.truth, run, "--json"]
+    if case.rooms is not None:
+        evaluate += ["--rooms", case.rooms]
+    run_program(evaluate, run / "evaluation.json")
+    return json.loads((run / "evaluation.json").read_text())["runs"][0]
+
+
+def measured_columns(evaluation, measured):
+    """The part of a row that a Study's `measured` says where to find."""
+    return {column: measured_in(evaluation, steps) for column, steps in measured.items()}
+
+
 def run_variant(case, variant, study, arguments, programs):
     """A row of the csv."""
     out = arguments.out / "runs" / case.name / variant.name
     out.mkdir(parents=True, exist_ok=True)
-    command = [programs / "sgraphs_offline", "--bag", case.bag, "--points", case.topic, "--out", out,
-               "--quiet"]
+    command = [programs / "sgraphs_offline", *input_options(case, arguments), "--out", out, "--quiet"]
     if variant.params is not None:
         command += ["--params", variant.params]
-    if case.building is not None:
-        command += INPUTS[arguments.inputs]
-        if arguments.base_frame:
-            command += ["--base-frame", arguments.base_frame]
     run_program(command, out / "run.log")
-    evaluate = [programs / "sgraphs_evaluate", "--truth", case.truth, out, "--json"]
-    if case.rooms is not None:
-        evaluate += ["--rooms", case.rooms]
-    run_program(evaluate, out / "evaluation.json")
-    evaluation = json.loads((out / "evaluation.json").read_text())["runs"][0]
-    row = {"set": case.set, "sensor": case.sensor, "rotation_deg": case.rotation_deg,
-           "seed": case.seed, "variant": variant.name, "group": case.group}
-    row.update((column, measured_in(evaluation, steps)) for column, steps in study.measured.items())
-    return row
+    return {"set": case.set, "sensor": case.sensor, "rotation_deg": case.rotation_deg,
+            "seed": case.seed, "variant": variant.name, "group": case.group,
+            **measured_columns(evaluated(case, out, programs), study.measured)}
 
 
 def measure(case, variants, study, arguments, programs):
@@ -211,33 +129,6 @@ def print_table(rows, variants, study):
     print(f"\nMeans over the seeds; ratios against '{reference}'.\n{study.note}")
 
 
-def parsed(study):
-    parser = argparse.ArgumentParser(
-        description=study.description, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("sets", nargs="*", metavar="SET")
-    parser.add_argument("--sensors", nargs="+", default=["vlp16"])
-    parser.add_argument("--seeds", nargs="+", type=int, default=[1])
-    parser.add_argument("--rotations", nargs="+", type=float, default=[0.0], metavar="DEG",
-                        help="the building and the walk in it are turned by")
-    parser.add_argument("--variant", action="append", default=[], metavar="NAME=FILE",
-                        help="parameters to run with; NAME= for the defaults")
-    parser.add_argument("--inputs", choices=sorted(INPUTS), default="none",
-                        help="what runs of simulated bags are given beside the points")
-    parser.add_argument("--base-frame", default=None,
-                        help="base_link: simulated runs and their truth are of the robot's base, not "
-                        "of the lidar")
-    parser.add_argument("--jobs", type=int, default=2, help="bags at a time")
-    parser.add_argument("--drop-bags", action="store_true", help="keep no simulated bag")
-    parser.add_argument("--build", type=Path, default=HERE.parent / "build",
-                        help="folder in which our programs were built")
-    parser.add_argument("--out", type=Path, default=HERE.parent / "build/benchmark" / study.name)
-    parser.add_argument("--bags", type=Path, default=None, help="default: DIR/bags")
-    arguments = parser.parse_args()
-    arguments.bags = arguments.bags or arguments.out / "bags"
-    return arguments
-
-
 def default_variants(study, folder):
     for name, params in study.variants.items():
         file = None
@@ -269,10 +160,12 @@ def write_csv(rows, study, path):
 
 def conduct(study):
     """The main program of a study."""
-    arguments = parsed(study)
-    arguments.out.mkdir(parents=True, exist_ok=True)
+    parser = parser_of_cases(study.name, study.description)
+    parser.add_argument("--variant", action="append", default=[], metavar="NAME=FILE",
+                        help="parameters to run with; NAME= for the defaults")
+    arguments = parsed(parser)
     variants = variants_of(study, arguments)
-    programs = arguments.build / "devel/lib/mrpt_sgraphs"
+    programs = programs_of(arguments)
     cases = list(all_cases(arguments))
     with ThreadPoolExecutor(arguments.jobs) as pool:
         measured = list(pool.map(

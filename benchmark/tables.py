@@ -3,10 +3,10 @@
 """The tables of the benchmarks."""
 
 
-def print_columns(columns, rows):
-    """Rows are dicts by column; the first two columns are names, the others numbers."""
+def print_columns(columns, rows, names=2):
+    """Rows are dicts by column; the first columns are names, the others numbers."""
     texts = [columns] + [[str(row[column]) for column in columns] for row in rows]
     widths = [max(len(text[k]) for text in texts) for k in range(len(columns))]
     for text in texts:
-        words = [t.ljust(w) if k < 2 else t.rjust(w) for k, (t, w) in enumerate(zip(text, widths))]
+        words = [t.ljust(w) if k < names else t.rjust(w) for k, (t, w) in enumerate(zip(text, widths))]
         print("  ".join(words))

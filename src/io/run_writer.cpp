@@ -3,24 +3,17 @@
 
 #include "mrpt_sgraphs/io/run_writer.h"
 
-#include <sys/resource.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <iomanip>
-#include <nlohmann/json.hpp>
-#include <map>
 #include <stdexcept>
 
 #include "mrpt_sgraphs/io/atomic_file.h"
 #include "mrpt_sgraphs/io/exports.h"
-#include "mrpt_sgraphs/io/statistics.h"
 #include "mrpt_sgraphs/mapping/map_cloud.h"
+#include "run_report.h"
 
 namespace mrpt_sgraphs {
 namespace {
-
-using Json = nlohmann::json;
 
 template <typename Write>
 void writeFile(const std::string& path, const Write& write) {
@@ -44,63 +37,14 @@ void writeOptimizations(const std::vector<OptimizationSummary>& rows, std::ostre
 }
 
 void writeScans(const std::vector<ScanReport>& rows, std::ostream& out) {
-  out << "stamp,prefilter_ms,deskew_ms,register_ms,map_ms,segment_ms,keyframe_ms,rooms_ms,registered,keyframe\n";
+  out << "stamp,prefilter_ms,deskew_ms,register_ms,map_ms,select_ms,segment_ms,keyframe_ms,"
+         "rooms_ms,registered,keyframe\n";
   for (const ScanReport& r : rows) {
     out << std::fixed << std::setprecision(6) << r.stamp_s << std::setprecision(3) << ','
         << r.prefilter_ms << ',' << r.deskew_ms << ',' << r.register_ms << ',' << r.map_ms << ','
-        << r.segment_ms << ',' << r.keyframe_ms << ',' << r.rooms_ms << ',' << (r.registered ? 1 : 0) << ',' << (r.keyframe ? 1 : 0) << '\n';
+        << r.select_ms << ',' << r.segment_ms << ',' << r.keyframe_ms << ',' << r.rooms_ms << ','
+        << (r.registered ? 1 : 0) << ',' << (r.keyframe ? 1 : 0) << '\n';
   }
-}
-
-Json timesOf(const std::vector<double>& values) {
-  if (values.empty()) return nullptr;
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return {{"count", values.size()},
-          {"mean_ms", sum / static_cast<double>(values.size())},
-          {"p50_ms", quantile(values, 0.50)},
-          {"p95_ms", quantile(values, 0.95)},
-          {"max_ms", *std::max_element(values.begin(), values.end())}};
-}
-
-double peakMebibytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
-void writeReport(const RunRecord& run, std::ostream& out) {
-  std::map<std::string, std::vector<double>> by_kind;
-  for (const OptimizationSummary& r : run.optimizations) by_kind[r.kind].push_back(r.total_ms);
-  Json optimizations = Json::object();
-  for (const auto& [kind, times] : by_kind) optimizations[kind] = timesOf(times);
-
-  std::vector<double> front_end;
-  std::size_t registered = 0;
-  for (const ScanReport& r : run.scans) {
-    front_end.push_back(r.prefilter_ms + r.deskew_ms + r.register_ms + r.map_ms);
-    registered += r.registered ? 1 : 0;
-  }
-  const auto loops =
-      std::count_if(run.graph->factors.begin(), run.graph->factors.end(), [](const auto& stored) {
-        const RelativePoseFactor* const edge = keyframeEdge(*stored.factor);
-        return edge != nullptr && edge->kind == RelativePoseFactor::Kind::kLoopClosure;
-      });
-  const Json report = {
-      {"format", "mrpt_sgraphs/report"},
-      {"version", 1},
-      {"scans", run.scans.size()},
-      {"scans_registered", registered},
-      {"keyframes", run.graph->keyframes.size()},
-      {"loop_closures", loops},
-      {"front_end_ms", timesOf(front_end)},
-      {"optimizations", optimizations},
-      {"data_s", run.data_s},
-      {"wall_s", run.wall_s},
-      {"real_time_factor", run.wall_s > 0.0 ? Json(run.data_s / run.wall_s) : Json(nullptr)},
-      {"peak_mib", peakMebibytes()},
-      {"parameters", run.parameters}};
-  out << report.dump(1) << '\n';
 }
 
 Trajectory keyframeTrajectory(const GraphSnapshot& graph) {

@@ -12,7 +12,26 @@
 namespace mrpt_sgraphs {
 namespace {
 
+using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+/// What messages with a pose to the last bit have in common: `pose` and `rotation`.
+template <typename Message>
+void setExactPose(const Pose& T, Message* msg) {
+  msg->pose = toPoseMsg(T);
+  Eigen::Map<RowMajor3>(msg->rotation.data()) = T.linear();
+}
+
+/// Nothing for a message whose pose is none.
+template <typename Message>
+std::optional<Pose> exactPoseOf(const Message& msg) {
+  std::optional<Pose> T = toPose(msg.pose);
+  if (!T) return std::nullopt;
+  constexpr double kMaxRounding = 1e-9;  // what is farther from the quaternion was not filled in
+  const Eigen::Matrix3d rotation = Eigen::Map<const RowMajor3>(msg.rotation.data());
+  if ((rotation - T->linear()).norm() < kMaxRounding) T->linear() = rotation;
+  return T;
+}
 
 std::vector<std::uint64_t> toMsg(const KeyframeRuns& keyframes) {
   std::vector<std::uint64_t> msg;
@@ -26,6 +45,10 @@ std::vector<std::uint64_t> toMsg(const KeyframeRuns& keyframes) {
 }  // namespace
 
 ros::Time toRosTime(double stamp_s) { return pcl_conversions::fromPCL(toPclStamp(stamp_s)); }
+
+double toSeconds(const ros::Time& stamp) {
+  return 1e-6 * static_cast<double>(pcl_conversions::toPCL(stamp));
+}
 
 geometry_msgs::Pose toPoseMsg(const Pose& T) {
   geometry_msgs::Pose msg;
@@ -87,7 +110,7 @@ ScanOdometry toScanOdometry(const OdometryResult& result, const std_msgs::Header
   ScanOdometry msg;
   msg.header = header;
   msg.child_frame_id = base_frame;
-  msg.pose = toPoseMsg(result.T_odom_base);
+  setExactPose(result.T_odom_base, &msg);
   msg.covariance = toMsg(result.covariance);
   msg.registered = result.registered;
   msg.degenerate_directions = result.degenerate_directions;
@@ -112,9 +135,19 @@ nav_msgs::Odometry toOdometry(const OdometryResult& result, const std_msgs::Head
 }
 
 std::optional<ScanMotion> toScanMotion(const ScanOdometry& msg) {
-  const auto T_odom_base = toPose(msg.pose);
+  const auto T_odom_base = exactPoseOf(msg);
   if (!T_odom_base) return std::nullopt;
-  return ScanMotion{msg.header.stamp.toSec(), *T_odom_base, toMatrix(msg.covariance)};
+  return ScanMotion{toSeconds(msg.header.stamp), *T_odom_base, toMatrix(msg.covariance)};
+}
+
+ScanReport toScanReport(const ScanOdometry& msg) {
+  ScanReport report;
+  report.stamp_s = toSeconds(msg.header.stamp);
+  report.deskew_ms = msg.deskew_ms;
+  report.register_ms = msg.register_ms;
+  report.map_ms = msg.map_ms;
+  report.registered = msg.registered != 0;
+  return report;
 }
 
 KeyframeStamped toMsg(const Keyframe& keyframe, const std_msgs::Header& header,
@@ -122,15 +155,16 @@ KeyframeStamped toMsg(const Keyframe& keyframe, const std_msgs::Header& header,
   KeyframeStamped msg;
   msg.header = header;
   msg.child_frame_id = base_frame;
-  msg.pose = toPoseMsg(keyframe.T_odom_base);
+  setExactPose(keyframe.T_odom_base, &msg);
   msg.covariance = toMsg(keyframe.covariance);
+  if (keyframe.cloud != nullptr) msg.viewpoint = tf2::toMsg(viewpointOf(*keyframe.cloud));
   return msg;
 }
 
 std::optional<Keyframe> toKeyframe(const KeyframeStamped& msg) {
-  const auto T_odom_base = toPose(msg.pose);
+  const auto T_odom_base = exactPoseOf(msg);
   if (!T_odom_base) return std::nullopt;
-  return Keyframe{msg.header.stamp.toSec(), *T_odom_base, toMatrix(msg.covariance), nullptr, nullptr};
+  return Keyframe{toSeconds(msg.header.stamp), *T_odom_base, toMatrix(msg.covariance), nullptr, nullptr};
 }
 
 OptimizationReport toMsg(const OptimizationSummary& summary, const std::string& map_frame) {

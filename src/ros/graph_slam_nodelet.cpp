@@ -98,13 +98,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
     if (!isOfThisSession(msg->session)) return;
     const auto motion = toScanMotion(*msg);
     if (!motion) return;
-    ScanReport report;
-    report.stamp_s = motion->stamp_s;
-    report.deskew_ms = msg->deskew_ms;
-    report.register_ms = msg->register_ms;
-    report.map_ms = msg->map_ms;
-    report.registered = msg->registered != 0;
-    slam_->addScan(*motion, report);
+    slam_->addScan(*motion, toScanReport(*msg));
     last_stamp_s_ = motion->stamp_s;
   }
 

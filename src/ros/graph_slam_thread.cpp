@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_slam_thread.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <utility>
 #include <vector>
@@ -12,7 +10,7 @@
 #include "mrpt_sgraphs/geometry/cpu_time.h"
 #include "mrpt_sgraphs/slam/config_file.h"
 #include "mrpt_sgraphs/slam/graph_slam.h"
-#include "mrpt_sgraphs/slam/scan_trajectory.h"
+#include "mrpt_sgraphs/slam/run_log.h"
 
 namespace mrpt_sgraphs {
 
@@ -23,9 +21,7 @@ struct GraphSlamThread::Session {
   const std::uint32_t number;
   GraphSlam slam;
   GraphSnapshotConstPtr told;  ///< The listener knows it.
-  ScanTrajectory trajectory;
-  std::vector<OptimizationSummary> optimizations;
-  std::vector<ScanReport> scans;
+  RunLog log;
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };
 
@@ -45,10 +41,7 @@ GraphSlamThread::~GraphSlamThread() {
 }
 
 void GraphSlamThread::addScan(const ScanMotion& scan, const ScanReport& report) {
-  post([this, scan, report] {
-    session_->trajectory.add(scan.stamp_s, scan.T_odom_base);
-    session_->scans.push_back(report);
-  });
+  post([this, scan, report] { session_->log.addScan(scan, report); });
 }
 
 void GraphSlamThread::addKeyframe(const Keyframe& keyframe, double segment_ms) {
@@ -56,7 +49,7 @@ void GraphSlamThread::addKeyframe(const Keyframe& keyframe, double segment_ms) {
     CpuStopwatch stopwatch;
     const KeyframeOutcome outcome = session_->slam.addKeyframe(keyframe);
     const double keyframe_ms = stopwatch.lap();
-    if (ScanReport* const scan = reportOf(keyframe.stamp_s)) {
+    if (ScanReport* const scan = session_->log.report(keyframe.stamp_s)) {
       scan->keyframe = true;
       scan->segment_ms = segment_ms;
       scan->keyframe_ms = keyframe_ms;
@@ -70,7 +63,9 @@ void GraphSlamThread::setFloors(std::uint32_t session, const FloorDetection& flo
     if (session != session_->number) return;
     CpuStopwatch stopwatch;
     const auto optimizations = session_->slam.setFloors(floors);
-    if (ScanReport* const scan = reportOf(floors.stamp_s)) scan->keyframe_ms += stopwatch.lap();
+    if (ScanReport* const scan = session_->log.report(floors.stamp_s)) {
+      scan->keyframe_ms += stopwatch.lap();
+    }
     tell(optimizations);
   });
 }
@@ -81,7 +76,7 @@ void GraphSlamThread::setRooms(std::uint32_t session, const RoomDetection& rooms
     if (session != session_->number) return;
     CpuStopwatch stopwatch;
     const auto optimizations = session_->slam.setRooms(rooms);
-    if (ScanReport* const scan = reportOf(rooms.stamp_s)) {
+    if (ScanReport* const scan = session_->log.report(rooms.stamp_s)) {
       scan->rooms_ms += detect_ms;
       scan->keyframe_ms += stopwatch.lap();
     }
@@ -120,7 +115,7 @@ std::future<RunRecord> GraphSlamThread::record() {
 
 std::future<Trajectory> GraphSlamThread::trajectory() {
   return ask<Trajectory>(
-      [this] { return session_->trajectory.corrected(*session_->slam.snapshot()); });
+      [this] { return session_->log.trajectory().corrected(*session_->slam.snapshot()); });
 }
 
 std::size_t GraphSlamThread::waiting() const {
@@ -129,35 +124,17 @@ std::size_t GraphSlamThread::waiting() const {
 }
 
 RunRecord GraphSlamThread::recordNow() const {
-  RunRecord record;
-  record.graph = session_->slam.snapshot();
-  record.trajectory = session_->trajectory.corrected(*record.graph);
-  record.odometry = session_->trajectory.odometry();
-  record.optimizations = session_->optimizations;
-  record.scans = session_->scans;
+  RunRecord record = session_->log.record(session_->slam.snapshot());
   record.parameters = parameterList(config_);
-  if (!record.odometry.empty()) {
-    record.data_s = record.odometry.back().stamp_s - record.odometry.front().stamp_s;
-  }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - session_->started;
   record.wall_s = wall.count();
   return record;
 }
 
-/// Null for a stamp that no scan has.
-ScanReport* GraphSlamThread::reportOf(double stamp_s) {
-  constexpr double kSameStamp_s = 1e-6;
-  std::vector<ScanReport>& scans = session_->scans;
-  const auto scan = std::find_if(scans.rbegin(), scans.rend(), [stamp_s](const ScanReport& report) {
-    return std::abs(report.stamp_s - stamp_s) < kSameStamp_s;
-  });
-  return scan == scans.rend() ? nullptr : &*scan;
-}
-
 /// The graph comes last: who shows it knows then which keyframes were in the optimization.
 void GraphSlamThread::tell(const std::vector<OptimizationSummary>& optimizations) {
+  session_->log.add(optimizations);
   for (const OptimizationSummary& optimization : optimizations) {
-    session_->optimizations.push_back(optimization);
     listener_.on_optimization(optimization);
   }
   tellGraph();

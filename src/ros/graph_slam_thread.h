@@ -63,7 +63,6 @@ class GraphSlamThread {
  private:
   struct Session;
 
-  ScanReport* reportOf(double stamp_s);
   void tell(const std::vector<OptimizationSummary>& optimizations);
   void tellGraph();
   template <typename Result>

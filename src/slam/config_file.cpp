@@ -82,6 +82,18 @@ bool isForRosAlone(const std::string& section) {
   return section == "display" || section == "frames" || section == "inputs";
 }
 
+template <typename Config>
+std::map<std::string, std::string> listOf(const Config& config) {
+  std::map<std::string, std::string> list;
+  Config::sections(config, [&](const std::string& section, const auto& values) {
+    std::decay_t<decltype(values)>::fields(
+        values, [&](const char* name, const auto& value, auto...) {
+          list[section + "/" + name] = toText(value);
+        });
+  });
+  return list;
+}
+
 }  // namespace
 
 SlamConfig loadConfigFile(const std::string& path) {
@@ -112,14 +124,11 @@ SlamConfig loadConfigFile(const std::string& path) {
 }
 
 std::map<std::string, std::string> parameterList(const SlamConfig& config) {
-  std::map<std::string, std::string> list;
-  SlamConfig::sections(config, [&](const std::string& section, const auto& values) {
-    std::decay_t<decltype(values)>::fields(
-        values, [&](const char* name, const auto& value, auto...) {
-          list[section + "/" + name] = toText(value);
-        });
-  });
-  return list;
+  return listOf(config);
+}
+
+std::map<std::string, std::string> parameterList(const BackEndConfig& config) {
+  return listOf(config);
 }
 
 }  // namespace mrpt_sgraphs

@@ -3,19 +3,22 @@
 
 #include "mrpt_sgraphs/slam/pipeline.h"
 
+#include <optional>
+#include <utility>
+
 #include "mrpt_sgraphs/geometry/cpu_time.h"
 #include "mrpt_sgraphs/slam/config_file.h"
 
 namespace mrpt_sgraphs {
 
-Pipeline::Pipeline(const SlamConfig& config)
+Pipeline::Pipeline(const SlamConfig& config, FrontEndListener listener)
     : config_(config),
+      listener_(std::move(listener)),
       prefilter_(config.prefilter),
       odometry_(config.odometry),
       keyframes_(config.keyframes),
       planes_(config.plane_segmentation),
-      graph_slam_(config),
-      rooms_(config.room_detection) {}
+      back_end_(config) {}
 
 std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
                               const std::string& base_frame) {
@@ -30,50 +33,33 @@ std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
     return "its stamp " + std::to_string(stampOf(*scan.cloud)) +
            " is not newer than that of the scan before it; left out";
   }
+  const ScanMotion motion{odometry->stamp_s, odometry->T_odom_base, odometry->covariance};
   report.stamp_s = odometry->stamp_s;
   report.deskew_ms = odometry->deskew_ms;
   report.register_ms = odometry->register_ms;
   report.map_ms = odometry->map_ms;
   report.registered = odometry->registered;
-  trajectory_.add(odometry->stamp_s, odometry->T_odom_base);
   watch.lap();
 
   planes_.addScan(odometry->deskewed, odometry->T_odom_base, odometry->registered);
-  auto keyframe = keyframes_.process(
-      {odometry->stamp_s, odometry->T_odom_base, odometry->covariance}, *odometry->deskewed);
-  report.keyframe_ms = watch.lap();
-  if (keyframe) {
-    keyframe->planes = planes_.take();
-    report.segment_ms = watch.lap();
-    add(graph_slam_.addKeyframe(*keyframe).optimizations);
-    if (config_.floors.enabled) {
-      add(graph_slam_.setFloors(detectFloors(*graph_slam_.snapshot(), config_.floors)));
-    }
-    report.keyframe = true;
-    report.keyframe_ms += watch.lap();
-    if (config_.room_detection.enabled) {
-      const RoomDetection rooms = rooms_.detect(*graph_slam_.snapshot());
-      report.rooms_ms = watch.lap();
-      add(graph_slam_.setRooms(rooms));
-      report.keyframe_ms += watch.lap();
-    }
-  }
-  scans_.push_back(report);
+  auto keyframe = keyframes_.process(motion, *odometry->deskewed);
+  report.select_ms = watch.lap();
+  back_end_.addScan(motion, report);
+  if (listener_.on_scan) listener_.on_scan(*odometry);
+  if (keyframe) add(&*keyframe);
   return odometry->problem.empty() ? scan.remark : odometry->problem;
 }
 
-void Pipeline::add(const std::vector<OptimizationSummary>& optimizations) {
-  optimizations_.insert(optimizations_.end(), optimizations.begin(), optimizations.end());
+void Pipeline::add(Keyframe* keyframe) {
+  CpuStopwatch watch;
+  keyframe->planes = planes_.take();
+  const double segment_ms = watch.lap();
+  if (listener_.on_keyframe) listener_.on_keyframe(*keyframe, segment_ms);
+  back_end_.addKeyframe(*keyframe, segment_ms);
 }
 
 RunRecord Pipeline::record() {
-  add(graph_slam_.finish());
-  RunRecord run;
-  run.graph = graph_slam_.snapshot();
-  run.trajectory = trajectory_.corrected(*run.graph);
-  run.odometry = trajectory_.odometry();
-  run.optimizations = optimizations_;
-  run.scans = scans_;
+  RunRecord run = back_end_.record();
   run.parameters = parameterList(config_);
   return run;
 }

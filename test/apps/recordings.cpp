@@ -10,6 +10,9 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "mrpt_sgraphs/KeyframePlanes.h"
+#include "mrpt_sgraphs/KeyframeStamped.h"
+#include "mrpt_sgraphs/ScanOdometry.h"
 #include "program.h"
 
 namespace mrpt_sgraphs::test {
@@ -90,6 +93,35 @@ void writeWithTransforms(const std::string& from, const std::string& to, const s
 
 void writeCompressed(const std::string& from, const std::string& to, Compression compression) {
   edit(from, to, copyMessage, compression);
+}
+
+void writeRerecorded(const std::string& from, const std::string& to,
+                     const std::function<std::vector<RecordedAs>(const std::string&)>& edit_topic) {
+  edit(from, to, [&](const rosbag::MessageInstance& message, rosbag::Bag* out) {
+    for (const RecordedAs& as : edit_topic(message.getTopic())) {
+      out->write(as.topic, message.getTime() + ros::Duration(as.later_s), message);
+    }
+  });
+}
+
+void writeTwoSessions(const std::string& from, const std::string& to) {
+  const rosbag::Bag in(from);
+  rosbag::Bag out(to, rosbag::bagmode::Write);
+  rosbag::View view(in);
+  const ros::Duration pass = view.getEndTime() - view.getBeginTime() + ros::Duration(0.1);
+  for (const rosbag::MessageInstance& message : view) {
+    out.write(message.getTopic(), message.getTime(), message);
+    const auto in_second = [&](auto msg) {
+      if (msg == nullptr) return false;
+      msg->session = 1;
+      out.write(message.getTopic(), message.getTime() + pass, *msg);
+      return true;
+    };
+    if (in_second(message.instantiate<ScanOdometry>())) continue;
+    if (in_second(message.instantiate<KeyframeStamped>())) continue;
+    if (in_second(message.instantiate<KeyframePlanes>())) continue;
+    out.write(message.getTopic(), message.getTime() + pass, message);
+  }
 }
 
 void writeTwice(const std::string& from, const std::string& to) {

@@ -57,6 +57,20 @@ void writeWithTransforms(const std::string& from, const std::string& to, const s
 enum class Compression { kNone, kLz4, kBz2 };
 void writeCompressed(const std::string& from, const std::string& to, Compression compression);
 
+/// How a message is recorded: as what topic, and how much later than it was.
+struct RecordedAs {
+  std::string topic;
+  double later_s = 0.0;
+};
+
+/// What the messages of a topic become: themselves, others, none.
+void writeRerecorded(const std::string& from, const std::string& to,
+                     const std::function<std::vector<RecordedAs>(const std::string& topic)>& edit);
+
+/// A recording of the front end as it was, and then all of it again as of the next session: as if
+/// the nodelets had been given a bag twice.
+void writeTwoSessions(const std::string& from, const std::string& to);
+
 /// Everything, and then everything again: recorded later, with the same header stamps.
 void writeTwice(const std::string& from, const std::string& to);
 

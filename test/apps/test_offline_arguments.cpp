@@ -36,7 +36,8 @@ TEST_F(OfflineArgumentsTest, HelpListsTheOptions) {
   const ProgramResult result = runOffline({"--help"});
   EXPECT_EQ(result.exit_code, 0);
   for (const char* option : {"--bag", "--points", "--odom", "--imu", "--out", "--params",
-                             "--base-frame", "--duration", "--quiet"}) {
+                             "--base-frame", "--duration", "--quiet", "--record", "--replay",
+                             "--mode"}) {
     EXPECT_NE(result.out.find(option), std::string::npos) << option;
   }
 }
@@ -57,6 +58,15 @@ TEST_F(OfflineArgumentsTest, WrongUsageNamesTheOption) {
       {{"--bag", bag, "--points", "/points", "--out", out, "--duration", "-1"}, "--duration"},
       {{"--bag", bag, "--points", "/points", "--out", out, "--duration", "0"}, "--duration"},
       {{"--bag", bag, "--points", "/points", "--out", out, "--duration", "nan"}, "--duration"},
+      {{"--bag", bag, "--points", "/points", "--out", out, "--mode", "fast"}, "condensed"},
+      {{"--bag", bag, "--points", "/points", "--out", out, "--record", bag}, "--record"},
+      {{"--replay", bag}, "--out"},
+      {{"--replay", bag, "--out", out, "--bag", bag}, "--bag"},
+      {{"--replay", bag, "--out", out, "--points", "/points"}, "--points"},
+      {{"--replay", bag, "--out", out, "--odom", "/odom"}, "--odom"},
+      {{"--replay", bag, "--out", out, "--imu", "/imu"}, "--imu"},
+      {{"--replay", bag, "--out", out, "--base-frame", "base_link"}, "--base-frame"},
+      {{"--replay", bag, "--out", out, "--record", out + ".bag"}, "--record"},
       {{"--bag", bag, bag, "--points", "/points", "--out", out}, "'" + bag + "' belongs to no"}};
   for (const auto& [arguments, option] : wrong) {
     const ProgramResult result = runOffline(arguments);
@@ -97,6 +107,20 @@ TEST_F(OfflineArgumentsTest, ParametersAreUsed) {
   ASSERT_EQ(run({"--params", file}).exit_code, 0);
   EXPECT_NE(folder_.read("run/report.json").find("\"keyframes/distance_m\": \"0.5\""),
             std::string::npos);
+}
+
+TEST_F(OfflineArgumentsTest, TheModeOfTheCommandLineCounts) {
+  const std::string file =
+      folder_.write("params.yaml", "hierarchy:\n  mode: paper\n  budget_ms: 50\n");
+  for (const auto& [options, mode] :
+       {std::pair(Arguments{}, "paper"), std::pair(Arguments{"--mode", "baseline"}, "baseline")}) {
+    Arguments arguments{"--params", file};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    ASSERT_EQ(run(arguments).exit_code, 0);
+    const std::string report = folder_.read("run/report.json");
+    EXPECT_NE(report.find("\"hierarchy/mode\": \"" + std::string(mode) + "\""), std::string::npos);
+    EXPECT_NE(report.find("\"hierarchy/budget_ms\": \"0\""), std::string::npos) << "no wall time";
+  }
 }
 
 TEST_F(OfflineArgumentsTest, ShippedParametersAreGood) {

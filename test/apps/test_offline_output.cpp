@@ -14,11 +14,10 @@
 #include "mrpt_sgraphs/io/trajectory_error.h"
 #include "program.h"
 #include "recordings.h"
+#include "run_files.h"
 
 namespace mrpt_sgraphs::test {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr double kMaxDt_s = 0.01;
 constexpr double kMaxAte_m = 0.02;
@@ -26,49 +25,6 @@ constexpr double kMaxAte_m = 0.02;
 const char* const kFiles[] = {"trajectory.tum", "odometry.tum",      "keyframes.tum",
                               "graph.json",     "graph.g2o",         "map.pcd",
                               "scans.csv",      "optimizations.csv", "report.json"};
-
-std::vector<std::string> linesOf(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-std::vector<std::string> cellsOf(const std::string& line) {
-  std::istringstream stream(line);
-  std::vector<std::string> cells;
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-/// A table with its columns of measured times emptied.
-std::vector<std::vector<std::string>> withoutTimes(const std::string& csv) {
-  std::vector<std::vector<std::string>> rows;
-  for (const std::string& line : linesOf(csv)) {
-    rows.push_back(cellsOf(line));
-    for (std::size_t k = 0; k < rows.back().size() && k < rows.front().size(); ++k) {
-      if (endsWith(rows.front()[k], "_ms") && rows.size() > 1) rows.back()[k].clear();
-    }
-  }
-  return rows;
-}
-
-Json withoutTimes(const Json& report) {
-  Json kept = report;
-  for (const auto& [name, value] : report.items()) {
-    const bool measured = endsWith(name, "_ms") && value.is_number();
-    if (measured || name == "wall_s" || name == "real_time_factor" || name == "peak_mib") {
-      kept.erase(name);
-    } else if (value.is_object()) {
-      kept[name] = withoutTimes(value);
-    }
-  }
-  return kept;
-}
 
 /// A run over the whole tour, made once.
 class OfflineOutputTest : public ::testing::Test {
@@ -220,6 +176,8 @@ TEST_F(OfflineOutputTest, ReportSumsUp) {
   EXPECT_EQ(report.at("scans"), wholeTour().lidarTruth().size());
   EXPECT_EQ(report.at("scans_registered"), report.at("scans"));
   EXPECT_EQ(report.at("keyframes"), graph().at("keyframes").size());
+  EXPECT_EQ(report.at("walls"), graph().at("walls").size());
+  EXPECT_EQ(report.at("factors"), graph().at("factors").size());
   EXPECT_GT(report.at("loop_closures"), 0);
   EXPECT_EQ(report.at("front_end_ms").at("count"), report.at("scans"));
   EXPECT_GT(report.at("real_time_factor"), 1.0);
@@ -234,6 +192,50 @@ TEST_F(OfflineOutputTest, ReportSumsUp) {
       EXPECT_TRUE(times.at(name).is_number()) << kind << ' ' << name;
     }
   }
+}
+
+TEST_F(OfflineOutputTest, ReportSaysWhichKeyframesAreKeptInWhichRoom) {
+  const Json report = Json::parse(read("report.json"));
+  const Json graph = this->graph();
+  std::map<Json, std::set<int>> kept_in;  // by room, null: none
+  std::map<Json, int> all_in;
+  for (const Json& keyframe : graph.at("keyframes")) {
+    ++all_in[keyframe.at("room")];
+    if (!keyframe.at("marginalized")) kept_in[keyframe.at("room")].insert(keyframe.at("id").get<int>());
+  }
+  const auto check = [&](const Json& place, const Json& room) {
+    EXPECT_EQ(place.at("keyframes"), all_in[room]);
+    EXPECT_EQ(place.at("kept").get<std::set<int>>(), kept_in[room]);
+    EXPECT_EQ(place.at("dropped"), all_in[room] - static_cast<int>(kept_in[room].size()));
+    return place.at("kept").size();
+  };
+  std::size_t active = check(report.at("in_no_room"), nullptr);
+  ASSERT_EQ(report.at("rooms").size(), graph.at("rooms").size());
+  for (const Json& room : graph.at("rooms")) {
+    const auto& rooms = report.at("rooms");
+    const auto place = std::find_if(rooms.begin(), rooms.end(),
+                                    [&](const Json& r) { return r.at("id") == room.at("id"); });
+    ASSERT_TRUE(place != rooms.end()) << room.at("id");
+    EXPECT_EQ(place->at("name"), room.at("name"));
+    EXPECT_EQ(place->at("kind"), room.at("kind"));
+    active += check(*place, room.at("id"));
+  }
+  EXPECT_EQ(report.at("keyframes_active"), active);
+  EXPECT_EQ(report.at("keyframes_marginalized"), graph.at("keyframes").size() - active);
+}
+
+TEST_F(OfflineOutputTest, ReportHasAllThatTheBackEndCosts) {
+  const Json costs = Json::parse(read("report.json")).at("back_end_ms");
+  double optimizing_ms = 0.0;
+  for (const auto& [kind, times] : Json::parse(read("report.json")).at("optimizations").items()) {
+    optimizing_ms += times.at("total_ms").get<double>();
+  }
+  for (const char* part : {"all", "graph", "room_detection"}) {
+    EXPECT_EQ(costs.at(part).at("count"), graph().at("keyframes").size()) << part;
+  }
+  const auto total_ms = [&](const char* part) { return costs.at(part).at("total_ms").get<double>(); };
+  EXPECT_GT(total_ms("graph"), optimizing_ms) << "optimizing is a part of it";
+  EXPECT_NEAR(total_ms("all"), total_ms("graph") + total_ms("room_detection"), 1e-6);
 }
 
 TEST_F(OfflineOutputTest, TablesHaveARowForEach) {

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "mrpt_sgraphs/ros/conversions.h"
@@ -55,8 +57,85 @@ TEST(Conversions, AScanComesBackAsItWas) {
   const auto motion = toScanMotion(toScanOdometry(result, header, "base_link"));
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->stamp_s, result.stamp_s, 1e-6);
-  EXPECT_TRUE(motion->T_odom_base.isApprox(result.T_odom_base, 1e-12));
+  EXPECT_EQ(motion->T_odom_base.matrix(), result.T_odom_base.matrix());
   EXPECT_EQ(motion->covariance, result.covariance);
+}
+
+TEST(Conversions, AKeyframeComesBackToTheLastBit) {
+  Cloud::Ptr cloud(new Cloud);
+  cloud->header.stamp = 1600000000123457;
+  cloud->header.frame_id = "base_link";
+  cloud->sensor_origin_.head<3>() = Eigen::Vector3f(0.1F, -0.2F, 0.7F);
+  test::RandomGeometry random(1);
+  for (int k = 0; k < 10; ++k) {
+    Point point;
+    point.getVector3fMap() = random.vector(20.0).cast<float>();
+    point.intensity = static_cast<float>(random.number(100.0));
+    point.time = static_cast<float>(random.number(0.1));
+    point.ring = static_cast<std::uint16_t>(k);
+    cloud->push_back(point);
+  }
+  const Keyframe keyframe{stampOf(*cloud), somePose(2.0), Matrix6::Random(), cloud, nullptr};
+  std_msgs::Header header;
+  header.stamp = toRosTime(keyframe.stamp_s);
+  const KeyframeStamped msg = toMsg(keyframe, header, "base_link");
+  const auto back = toKeyframe(msg);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->stamp_s, keyframe.stamp_s) << "as a cloud's";
+  EXPECT_EQ(back->T_odom_base.matrix(), keyframe.T_odom_base.matrix());
+  EXPECT_EQ(back->covariance, keyframe.covariance);
+  EXPECT_EQ(msg.viewpoint.z, double{cloud->sensor_origin_.z()});
+
+  const Cloud::Ptr points = toCloud(toMsg(*cloud));
+  ASSERT_NE(points, nullptr);
+  EXPECT_EQ(points->header.stamp, cloud->header.stamp);
+  EXPECT_EQ(points->header.frame_id, cloud->header.frame_id);
+  ASSERT_EQ(points->size(), cloud->size());
+  for (std::size_t k = 0; k < cloud->size(); ++k) {
+    const Point& a = (*points)[k];
+    const Point& b = (*cloud)[k];
+    EXPECT_EQ(a.getVector3fMap(), b.getVector3fMap());
+    EXPECT_EQ(std::tuple(a.intensity, a.time, a.ring), std::tuple(b.intensity, b.time, b.ring));
+  }
+}
+
+TEST(Conversions, ARotationThatIsNotThatOfThePoseIsNotHeeded) {
+  const Keyframe keyframe{1600000000.0, somePose(1.0), Matrix6::Identity(), nullptr, nullptr};
+  KeyframeStamped msg = toMsg(keyframe, std_msgs::Header(), "base_link");
+  for (const double value : {0.0, 1.0, std::nan("")}) {  // of who knows the pose alone
+    msg.rotation.fill(value);
+    const auto back = toKeyframe(msg);
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(back->T_odom_base.isApprox(keyframe.T_odom_base, 1e-12)) << value;
+  }
+}
+
+TEST(Conversions, CloudsThatAreNotOfKeyframesAreNone) {
+  Cloud cloud;
+  cloud.push_back(Point());
+  cloud.push_back(Point());
+  const sensor_msgs::PointCloud2 good = toMsg(cloud);
+  ASSERT_NE(toCloud(good), nullptr);
+  EXPECT_EQ(toCloud(good)->size(), 2U);
+
+  auto bad = good;
+  bad.fields.pop_back();
+  EXPECT_EQ(toCloud(bad), nullptr) << "a field less";
+  bad = good;
+  bad.fields[0].datatype = sensor_msgs::PointField::FLOAT64;
+  EXPECT_EQ(toCloud(bad), nullptr) << "of another type";
+  bad = good;
+  bad.fields[5].offset = bad.point_step - 1;
+  EXPECT_EQ(toCloud(bad), nullptr) << "beyond the point";
+  bad = good;
+  bad.data.pop_back();
+  EXPECT_EQ(toCloud(bad), nullptr) << "a byte less";
+  bad = good;
+  bad.height = bad.width = 0xFFFFFFFFU;
+  EXPECT_EQ(toCloud(bad), nullptr) << "more than there is";
+
+  cloud[1].y = std::nanf("");
+  EXPECT_EQ(toCloud(toMsg(cloud))->size(), 1U) << "a point that is none";
 }
 
 TEST(Conversions, ACloudIsViewedAndNotCopied) {

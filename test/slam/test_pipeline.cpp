@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
+#include "mrpt_sgraphs/io/exports.h"
 #include "mrpt_sgraphs/io/trajectory_error.h"
 #include "mrpt_sgraphs/slam/config_file.h"
 #include "support/simulated_scans.h"
@@ -12,8 +15,9 @@ namespace mrpt_sgraphs {
 namespace {
 
 /// Everything that a run measures, in the order in which it would come.
-RunRecord play(const test::SimulatedRun& run, const SlamConfig& config) {
-  Pipeline pipeline(config);
+RunRecord play(const test::SimulatedRun& run, const SlamConfig& config,
+               const FrontEndListener& listener = {}) {
+  Pipeline pipeline(config, listener);
   std::size_t imu = 0;
   std::size_t odom = 0;
   for (std::size_t k = 0; k < run.scans.size(); ++k) {
@@ -30,6 +34,12 @@ RunRecord play(const test::SimulatedRun& run, const SlamConfig& config) {
   }
   EXPECT_EQ(pipeline.scans(), run.scans.size());
   return pipeline.record();
+}
+
+std::string graphJson(const RunRecord& run) {
+  std::ostringstream out;
+  writeGraphJson(*run.graph, out);
+  return out.str();
 }
 
 class PipelineInABuilding : public ::testing::Test {
@@ -62,7 +72,8 @@ TEST_F(PipelineInABuilding, RecordsEveryScan) {
     EXPECT_EQ(report.stamp_s, record_->trajectory[k].stamp_s);
     EXPECT_TRUE(report.registered) << k;
     for (const double time_ms : {report.prefilter_ms, report.deskew_ms, report.register_ms,
-                                 report.map_ms, report.segment_ms, report.keyframe_ms}) {
+                                 report.map_ms, report.select_ms, report.segment_ms,
+                                 report.keyframe_ms, report.rooms_ms}) {
       EXPECT_GE(time_ms, 0.0);
     }
     keyframes += report.keyframe ? 1 : 0;
@@ -110,6 +121,32 @@ TEST_F(PipelineInABuilding, SameInputSameOutput) {
     for (std::size_t i = 0; i < a.size(); ++i) {
       ASSERT_EQ(a[i].getVector3fMap(), b[i].getVector3fMap());
     }
+  }
+}
+
+TEST_F(PipelineInABuilding, ItsListenerHearsAllThatABackEndNeeds) {
+  BackEnd back_end{SlamConfig{}};
+  FrontEndListener listener;
+  listener.on_scan = [&](const OdometryResult& scan) {
+    ScanReport report;
+    report.stamp_s = scan.stamp_s;
+    back_end.addScan({scan.stamp_s, scan.T_odom_base, scan.covariance}, report);
+  };
+  listener.on_keyframe = [&](const Keyframe& keyframe, double segment_ms) {
+    back_end.addKeyframe(keyframe, segment_ms);
+  };
+  play(*run_, SlamConfig{}, listener);
+  const RunRecord heard = back_end.record();
+  EXPECT_EQ(heard.parameters, parameterList(static_cast<const BackEndConfig&>(SlamConfig{})));
+  EXPECT_EQ(heard.parameters.count("odometry/map_points"), 0U) << "it had no part in it";
+  EXPECT_EQ(heard.data_s, record_->data_s);
+  EXPECT_EQ(heard.optimizations.size(), record_->optimizations.size());
+  EXPECT_EQ(graphJson(heard), graphJson(*record_));
+  ASSERT_EQ(heard.trajectory.size(), record_->trajectory.size());
+  for (std::size_t k = 0; k < heard.trajectory.size(); ++k) {
+    ASSERT_EQ(heard.trajectory[k].T_world_body.matrix(),
+              record_->trajectory[k].T_world_body.matrix());
+    EXPECT_EQ(heard.scans[k].keyframe, record_->scans[k].keyframe);
   }
 }
 

@@ -21,7 +21,9 @@
 #include "mrpt_sgraphs/frontend/odometry.h"
 #include "mrpt_sgraphs/frontend/raw_cloud.h"
 #include "mrpt_sgraphs/geometry/observed_plane.h"
+#include "mrpt_sgraphs/geometry/point_cloud.h"
 #include "mrpt_sgraphs/graph/snapshot.h"
+#include "mrpt_sgraphs/io/run_writer.h"
 #include "mrpt_sgraphs/io/tum.h"
 #include "mrpt_sgraphs/solver/optimization_summary.h"
 
@@ -30,6 +32,7 @@ namespace mrpt_sgraphs {
 
 /// To the microsecond, as PCL's stamps are, so that messages of one scan have one stamp.
 ros::Time toRosTime(double stamp_s);
+double toSeconds(const ros::Time& stamp);
 
 geometry_msgs::Pose toPoseMsg(const Pose& T);  // toMsg is what tf2_eigen calls its own
 geometry_msgs::TransformStamped toMsg(const Pose& T_parent_child, ros::Time stamp,
@@ -68,6 +71,15 @@ KeyframePlanes toMsg(const ObservedPlanesConstPtr& planes, const std_msgs::Heade
 /// Without those that are none: not finite, no direction or no covariance. Null where nothing was
 /// observed.
 ObservedPlanesConstPtr toObservedPlanes(const KeyframePlanes& msg);
+
+/// The report of a scan, as far as the message knows.
+ScanReport toScanReport(const ScanOdometry& msg);
+
+/// The clouds of keyframes as any program reads them.
+sensor_msgs::PointCloud2 toMsg(const Cloud& cloud);
+/// Without its viewpoint, which the keyframe's own message has, and without points that are not
+/// finite. Null for a message that does not have the fields of a Cloud or less data than it says.
+Cloud::Ptr toCloud(const sensor_msgs::PointCloud2& msg);
 
 /// The session is left to be filled in; see toSnapshot for the way back.
 SituationalGraph toMsg(const GraphSnapshot& graph, const std::string& map_frame);

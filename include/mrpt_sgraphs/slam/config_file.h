@@ -17,5 +17,6 @@ SlamConfig loadConfigFile(const std::string& path);
 
 /// Every parameter and its value, `section/field` by name.
 std::map<std::string, std::string> parameterList(const SlamConfig& config);
+std::map<std::string, std::string> parameterList(const BackEndConfig& config);
 
 }  // namespace mrpt_sgraphs

@@ -3,26 +3,32 @@
 
 #pragma once
 
-#include <optional>
+#include <cstddef>
+#include <functional>
 #include <string>
 
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
 #include "mrpt_sgraphs/frontend/odometry.h"
 #include "mrpt_sgraphs/frontend/plane_observer.h"
 #include "mrpt_sgraphs/frontend/prefilter.h"
-#include "mrpt_sgraphs/io/run_writer.h"
-#include "mrpt_sgraphs/semantics/room_detector.h"
-#include "mrpt_sgraphs/slam/graph_slam.h"
-#include "mrpt_sgraphs/slam/scan_trajectory.h"
+#include "mrpt_sgraphs/slam/back_end.h"
 #include "mrpt_sgraphs/slam/slam_config.h"
 
 namespace mrpt_sgraphs {
+
+/// Hears what the front end gives to the back end: all that is needed to do the back end's work
+/// again. What is empty is not called.
+struct FrontEndListener {
+  std::function<void(const OdometryResult&)> on_scan;  ///< Of every scan that was placed.
+  /// After its scan, with its planes and what these have cost [ms].
+  std::function<void(const Keyframe&, double segment_ms)> on_keyframe;
+};
 
 /// The classes of the nodelets, one after the other on the caller's thread: the same input gives the
 /// same output.
 class Pipeline {
  public:
-  explicit Pipeline(const SlamConfig& config);
+  explicit Pipeline(const SlamConfig& config, FrontEndListener listener = {});
 
   void addImu(const ImuSample& sample) { odometry_.addImu(sample); }
   void addOdom(const OdomSample& sample) { odometry_.addOdom(sample); }
@@ -33,25 +39,22 @@ class Pipeline {
   ///         at all is not in the record.
   std::string addScan(const RawCloud& raw, const Pose& T_base_lidar, const std::string& base_frame);
 
-  std::size_t scans() const { return trajectory_.odometry().size(); }
-  GraphSnapshotConstPtr graph() const { return graph_slam_.snapshot(); }
+  std::size_t scans() const { return back_end_.scans(); }
+  GraphSnapshotConstPtr graph() const { return back_end_.graph(); }
 
-  /// Everything so far. Durations are the caller's to fill in.
+  /// Everything so far, the back end's work finished. `wall_s` is the caller's to fill in.
   RunRecord record();
 
  private:
-  void add(const std::vector<OptimizationSummary>& optimizations);
+  void add(Keyframe* keyframe);
 
   SlamConfig config_;
+  FrontEndListener listener_;
   Prefilter prefilter_;
   Odometry odometry_;
   KeyframeSelector keyframes_;
   PlaneObserver planes_;
-  GraphSlam graph_slam_;
-  RoomDetector rooms_;
-  ScanTrajectory trajectory_;
-  std::vector<OptimizationSummary> optimizations_;
-  std::vector<ScanReport> scans_;
+  BackEnd back_end_;
 };
 
 }  // namespace mrpt_sgraphs

@@ -6,21 +6,17 @@
 #include "mrpt_sgraphs/frontend/odometry.h"
 #include "mrpt_sgraphs/frontend/plane_segmentation.h"
 #include "mrpt_sgraphs/frontend/prefilter.h"
-#include "mrpt_sgraphs/semantics/floor_detector_config.h"
-#include "mrpt_sgraphs/semantics/room_detector_config.h"
-#include "mrpt_sgraphs/slam/graph_slam_config.h"
+#include "mrpt_sgraphs/slam/back_end_config.h"
 
 namespace mrpt_sgraphs {
 
 /// Every parameter of the pipeline, in sections that have the same names in YAML files, on the
 /// parameter server and here.
-struct SlamConfig : GraphSlamConfig {
+struct SlamConfig : BackEndConfig {
   PrefilterConfig prefilter;
   OdometryConfig odometry;
   KeyframeConfig keyframes;
   PlaneSegmentationConfig plane_segmentation;
-  FloorDetectorConfig floors;
-  RoomDetectorConfig room_detection;
 
   /// The one list of sections: `section(name, config)`.
   template <typename Self, typename Section>
@@ -29,14 +25,7 @@ struct SlamConfig : GraphSlamConfig {
     section("odometry", self.odometry);
     section("keyframes", self.keyframes);
     section("plane_segmentation", self.plane_segmentation);
-    section("loop_closure", self.loop_closure);
-    section("walls", self.walls);
-    section("ground", self.ground);
-    section("floors", self.floors);
-    section("room_detection", self.room_detection);
-    section("rooms", self.rooms);
-    section("hierarchy", self.hierarchy);
-    section("solver", self.solver);
+    BackEndConfig::sections(self, section);
   }
 };
 

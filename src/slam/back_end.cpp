@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mrpt_sgraphs/slam/back_end.h"
+
+#include "mrpt_sgraphs/geometry/cpu_time.h"
+#include "mrpt_sgraphs/slam/config_file.h"
+
+namespace mrpt_sgraphs {
+
+BackEnd::BackEnd(const BackEndConfig& config)
+    : config_(config), graph_slam_(config), rooms_(config.room_detection) {}
+
+void BackEnd::addKeyframe(const Keyframe& keyframe, double segment_ms) {
+  CpuStopwatch watch;
+  log_.add(graph_slam_.addKeyframe(keyframe).optimizations);
+  if (config_.floors.enabled) {
+    log_.add(graph_slam_.setFloors(detectFloors(*graph_slam_.snapshot(), config_.floors)));
+  }
+  double keyframe_ms = watch.lap();
+  double rooms_ms = 0.0;
+  if (config_.room_detection.enabled) {
+    const RoomDetection rooms = rooms_.detect(*graph_slam_.snapshot());
+    rooms_ms = watch.lap();
+    log_.add(graph_slam_.setRooms(rooms));
+    keyframe_ms += watch.lap();
+  }
+
+  ScanReport* const report = log_.report(keyframe.stamp_s);
+  if (report == nullptr) return;
+  report->keyframe = true;
+  report->segment_ms = segment_ms;
+  report->keyframe_ms = keyframe_ms;
+  report->rooms_ms = rooms_ms;
+}
+
+RunRecord BackEnd::record() const {
+  RunRecord run = log_.record(graph_slam_.snapshot());
+  run.parameters = parameterList(config_);
+  return run;
+}
+
+}  // namespace mrpt_sgraphs
