@@ -60,7 +60,8 @@ void requireOneSource(const po::variables_map& values) {
   const bool replays = values.count("replay") > 0;
   for (const char* name : {"bag", "points", "odom", "imu", "base-frame", "record"}) {
     if (!replays || values.count(name) == 0) continue;
-    throw po::error("--" + std::string(name) + " is for the front end, which --replay does without");
+    throw po::error("--" + std::string(name) +
+                    " is for the front end, which --replay does without");
   }
   for (const char* name : {"bag", "points"}) {
     if (replays || values.count(name) > 0) continue;

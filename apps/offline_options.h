@@ -13,8 +13,9 @@ namespace mrpt_sgraphs {
 /// The command line of sgraphs_offline.
 struct OfflineOptions {
   BagRequest bags;
-  std::vector<std::string> replay;  ///< Instead of the bags' files; `bags` has only the duration then.
-  std::string record;               ///< Empty: nothing is recorded.
+  std::vector<std::string>
+      replay;          ///< Instead of the bags' files; `bags` has only the duration then.
+  std::string record;  ///< Empty: nothing is recorded.
   std::string out;
   std::string params;
   std::string mode;  ///< Empty: that of the parameters.

@@ -12,7 +12,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Dict, NamedTuple, Optional
 
-from cases import all_cases, input_options, parsed, parser_of_cases, programs_of, run_program, simulate
+from cases import (all_cases, input_options, parsed, parser_of_cases, programs_of, run_program,
+                   simulate)
 from tables import print_columns
 
 
@@ -61,7 +62,8 @@ def run_variant(case, variant, study, arguments, programs):
     """A row of the csv."""
     out = arguments.out / "runs" / case.name / variant.name
     out.mkdir(parents=True, exist_ok=True)
-    command = [programs / "sgraphs_offline", *input_options(case, arguments), "--out", out, "--quiet"]
+    command = [programs / "sgraphs_offline", *input_options(case, arguments), "--out", out,
+               "--quiet"]
     if variant.params is not None:
         command += ["--params", variant.params]
     run_program(command, out / "run.log")

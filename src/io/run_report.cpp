@@ -133,19 +133,19 @@ double peakMebibytes() {
 void writeReport(const RunRecord& run, std::ostream& out) {
   const auto registered = std::count_if(run.scans.begin(), run.scans.end(),
                                         [](const ScanReport& r) { return r.registered; });
-  Json report = {{"format", "mrpt_sgraphs/report"},
-                 {"version", 1},
-                 {"scans", run.scans.size()},
-                 {"scans_registered", registered},
-                 {"front_end_ms", frontEndTimes(run.scans)},
-                 {"back_end_ms", backEndTimes(run.scans)},
-                 {"optimizations", optimizationTimes(run.optimizations)},
-                 {"data_s", run.data_s},
-                 {"wall_s", run.wall_s},
-                 {"real_time_factor",
-                  run.wall_s > 0.0 ? Json(run.data_s / run.wall_s) : Json(nullptr)},
-                 {"peak_mib", peakMebibytes()},
-                 {"parameters", run.parameters}};
+  Json report = {
+      {"format", "mrpt_sgraphs/report"},
+      {"version", 1},
+      {"scans", run.scans.size()},
+      {"scans_registered", registered},
+      {"front_end_ms", frontEndTimes(run.scans)},
+      {"back_end_ms", backEndTimes(run.scans)},
+      {"optimizations", optimizationTimes(run.optimizations)},
+      {"data_s", run.data_s},
+      {"wall_s", run.wall_s},
+      {"real_time_factor", run.wall_s > 0.0 ? Json(run.data_s / run.wall_s) : Json(nullptr)},
+      {"peak_mib", peakMebibytes()},
+      {"parameters", run.parameters}};
   report.update(describe(*run.graph));
   out << report.dump(1) << '\n';
 }

@@ -22,7 +22,8 @@ class OpenBags {
   /// @throws std::runtime_error for a file that is missing, no bag or cut short.
   OpenBags(const std::vector<std::string>& files, double duration_s);
 
-  /// @throws std::runtime_error for a topic that is not in any of them or has another type: it names
+  /// @throws std::runtime_error for a topic that is not in any of them or has another type: it
+  /// names
   ///         what was found instead.
   template <typename Message>
   void checkTopic(const std::string& topic) const {

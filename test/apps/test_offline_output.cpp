@@ -201,7 +201,8 @@ TEST_F(OfflineOutputTest, ReportSaysWhichKeyframesAreKeptInWhichRoom) {
   std::map<Json, int> all_in;
   for (const Json& keyframe : graph.at("keyframes")) {
     ++all_in[keyframe.at("room")];
-    if (!keyframe.at("marginalized")) kept_in[keyframe.at("room")].insert(keyframe.at("id").get<int>());
+    if (keyframe.at("marginalized")) continue;
+    kept_in[keyframe.at("room")].insert(keyframe.at("id").get<int>());
   }
   const auto check = [&](const Json& place, const Json& room) {
     EXPECT_EQ(place.at("keyframes"), all_in[room]);
@@ -233,7 +234,9 @@ TEST_F(OfflineOutputTest, ReportHasAllThatTheBackEndCosts) {
   for (const char* part : {"all", "graph", "room_detection"}) {
     EXPECT_EQ(costs.at(part).at("count"), graph().at("keyframes").size()) << part;
   }
-  const auto total_ms = [&](const char* part) { return costs.at(part).at("total_ms").get<double>(); };
+  const auto total_ms = [&costs](const char* part) {
+    return costs.at(part).at("total_ms").get<double>();
+  };
   EXPECT_GT(total_ms("graph"), optimizing_ms) << "optimizing is a part of it";
   EXPECT_NEAR(total_ms("all"), total_ms("graph") + total_ms("room_detection"), 1e-6);
 }

@@ -15,7 +15,8 @@ namespace {
 const char* const kTopics[] = {"/sgraphs/keyframe", "/sgraphs/keyframe_planes",
                                "/sgraphs/keyframe_points", "/sgraphs/scan_odometry"};
 
-ProgramResult replay(const std::string& bag, const std::string& out, const Arguments& further = {}) {
+ProgramResult replay(const std::string& bag, const std::string& out,
+                     const Arguments& further = {}) {
   Arguments arguments{"--replay", bag, "--out", out};
   arguments.insert(arguments.end(), further.begin(), further.end());
   return runOffline(arguments);
@@ -37,8 +38,8 @@ class OfflineReplayTest : public ::testing::Test {
   static std::string bag() { return folder_->file("front_end.bag"); }
 
   static void expectTheSameRun(const std::string& name) {
-    for (const char* file :
-         {"trajectory.tum", "odometry.tum", "keyframes.tum", "graph.json", "graph.g2o", "map.pcd"}) {
+    for (const char* file : {"trajectory.tum", "odometry.tum", "keyframes.tum", "graph.json",
+                             "graph.g2o", "map.pcd"}) {
       EXPECT_NE(folder_->read("run/" + std::string(file)), "");
       EXPECT_TRUE(folder_->read(name + "/" + file) == folder_->read("run/" + std::string(file)))
           << file;  // not EXPECT_EQ, which would print them

@@ -19,7 +19,7 @@ struct ScanReport {
   double deskew_ms = 0.0;
   double register_ms = 0.0;
   double map_ms = 0.0;
-  double select_ms = 0.0;    ///< Keyframe or not; gathering scans for planes. Not known to nodelets.
+  double select_ms = 0.0;    ///< Keyframe or not, thinning. Not known to nodelets.
   double segment_ms = 0.0;   ///< the planes of a keyframe
   double keyframe_ms = 0.0;  ///< The back end's work for it but for:
   double rooms_ms = 0.0;     ///< free space and rooms.
