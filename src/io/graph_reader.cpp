@@ -182,6 +182,9 @@ LayeredGraph readGraphJson(std::istream& in, const std::string& name) {
   addAll(document["factors"], [&](const JsonPlace& place) { graph.addFactor(factorFrom(place)); });
   if (document.has("shelved")) {
     addAll(document["shelved"], [&](const JsonPlace& place) { addShelved(place, &graph); });
+    // these factors are no news to the condensed ones of the file, which were made of them
+    const std::set<KeyframeId> read = graph.brokenShelves();
+    for (const KeyframeId kept : read) graph.setMended(kept);
   }
   return graph;
 }

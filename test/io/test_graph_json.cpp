@@ -222,6 +222,7 @@ TEST_F(GraphJsonTest, ShelvedFactorsAreOnTheShelfAgainAndNowhereElse) {
   EXPECT_EQ(again.factorCountOf(KeyframeId{1}), 0U);
   EXPECT_EQ(again.shelf().of(KeyframeId{1}).size(), 3U);
   EXPECT_EQ(again.shelf().keptBy(KeyframeId{0}).size(), 2U);
+  EXPECT_TRUE(again.brokenShelves().empty());
 }
 
 TEST_F(GraphJsonTest, WaysOfCondensedFactorsComeBack) {
