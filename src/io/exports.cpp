@@ -7,6 +7,8 @@
 #include <iomanip>
 #include <vector>
 
+#include "pose_graph.h"
+
 namespace mrpt_sgraphs {
 namespace {
 
@@ -29,12 +31,10 @@ void writeG2o(const GraphSnapshot& graph, std::ostream& out) {
   if (!graph.keyframes.empty()) out << "FIX " << graph.keyframes.front().id.value << '\n';
   Tangent scale;
   scale << 1.0, 1.0, 1.0, 2.0, 2.0, 2.0;
-  for (const StoredFactor& stored : graph.factors) {
-    const RelativePoseFactor* const edge = keyframeEdge(*stored.factor);
-    if (edge == nullptr) continue;
-    out << "EDGE_SE3:QUAT " << edge->node(0).value << ' ' << edge->node(1).value << ' ';
-    writePose(edge->T_from_to, out);
-    const Matrix6 information = scale.asDiagonal() * edge->information() * scale.asDiagonal();
+  for (const PoseEdge& edge : poseGraph(graph)) {
+    out << "EDGE_SE3:QUAT " << edge.from.value << ' ' << edge.to.value << ' ';
+    writePose(edge.T_from_to, out);
+    const Matrix6 information = scale.asDiagonal() * edge.information * scale.asDiagonal();
     for (int row = 0; row < 6; ++row) {
       for (int column = row; column < 6; ++column) out << ' ' << information(row, column);
     }

@@ -15,6 +15,7 @@
 #include "mrpt_sgraphs/factors/room_walls.h"
 #include "mrpt_sgraphs/factors/summed_observations.h"
 #include "mrpt_sgraphs/factors/wall_pair.h"
+#include "mrpt_sgraphs/io/information_check.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -56,10 +57,13 @@ void writeWeight(const SummedObservationsFactor& factor, Json* json) {
 }
 void writeWeight(const CondensedFactor& factor, Json* json) {
   Json seen = Json::array();
+  Json ways = Json::array();
   for (const CondensedFactor::Other& other : factor.others()) {
     seen.push_back(std::visit([](const auto& value) { return toJson(value); }, other.seen_kept));
+    ways.push_back(other.way_covariance ? upperTriangle(*other.way_covariance) : Json(nullptr));
   }
   (*json)["measurement"] = seen;
+  (*json)["ways"] = ways;
   (*json)["information"] = upperTriangle(factor.quadratic().Lambda);
   (*json)["linear"] = toJson(factor.quadratic().eta);
   (*json)["constant"] = factor.quadratic().c;
@@ -182,6 +186,15 @@ FactorConstPtr summedObservations(const JsonPlace& factor) {
   return std::make_shared<SummedObservationsFactor>(nodeAt(factor, 0, true), sum);
 }
 
+/// How well the way to another node of a condensed factor is known, if there is one.
+std::optional<Matrix6> wayTo(NodeId node, const JsonPlace& place) {
+  if (place.isNull()) return std::nullopt;
+  if (node.layer != Layer::kKeyframe) place.fail("is a way to " + nameOf(node));
+  const Matrix6 covariance = place.symmetric(6);
+  if (!isPositiveSemidefinite(covariance)) place.fail("is not positive semidefinite");
+  return covariance;
+}
+
 FactorConstPtr condensed(const JsonPlace& factor) {
   const auto kept = idAt<KeyframeId>(factor, 0);
   const JsonPlace nodes = factor["nodes"];
@@ -198,6 +211,13 @@ FactorConstPtr condensed(const JsonPlace& factor) {
       others.back().seen_kept = seen[k].pose();
     }
     rows += tangentSize(node.layer);
+  }
+  if (factor.has("ways")) {
+    const JsonPlace ways = factor["ways"];
+    ways.requireSize(others.size());
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      others[k].way_covariance = wayTo(others[k].node, ways[k]);
+    }
   }
   return std::make_shared<CondensedFactor>(
       kept, std::move(others),

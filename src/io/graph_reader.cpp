@@ -135,6 +135,14 @@ void requireReferences(const LayeredGraph& graph, const JsonPlace& document) {
   }
 }
 
+/// A factor that another one stands for; the condensed factor of the kept keyframe is among those
+/// of the graph.
+void addShelved(const JsonPlace& place, LayeredGraph* graph) {
+  const auto kept = idOrNull<KeyframeId>(place["kept"]);
+  if (kept) requireNode(*graph, *kept, place);
+  graph->shelve(graph->addFactor(factorFrom(place)), kept);
+}
+
 template <typename Add>
 void addAll(const JsonPlace& list, const Add& add) {
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -172,6 +180,12 @@ LayeredGraph readGraphJson(std::istream& in, const std::string& name) {
   addAll(document["keyframes"], [&](const JsonPlace& place) { addKeyframe(place, &graph); });
   requireReferences(graph, document);
   addAll(document["factors"], [&](const JsonPlace& place) { graph.addFactor(factorFrom(place)); });
+  if (document.has("shelved")) {
+    addAll(document["shelved"], [&](const JsonPlace& place) { addShelved(place, &graph); });
+    // these factors are no news to the condensed ones of the file, which were made of them
+    const std::set<KeyframeId> read = graph.brokenShelves();
+    for (const KeyframeId kept : read) graph.setMended(kept);
+  }
   return graph;
 }
 

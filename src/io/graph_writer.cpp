@@ -125,7 +125,7 @@ void writeGraphJson(const GraphSnapshot& graph, std::ostream& out) {
   Json document{{"format", "mrpt_sgraphs/graph"},
                 {"version", kGraphVersion},
                 {"map_odom", toJson(graph.T_map_odom)}};
-  for (const char* list : {"keyframes", "walls", "rooms", "floors", "factors"}) {
+  for (const char* list : {"keyframes", "walls", "rooms", "floors", "factors", "shelved"}) {
     document[list] = Json::array();
   }
   for (const KeyframeNode& keyframe : graph.keyframes) {
@@ -141,6 +141,10 @@ void writeGraphJson(const GraphSnapshot& graph, std::ostream& out) {
   }
   for (const StoredFactor& stored : graph.factors) {
     document["factors"].push_back(toJson(*stored.factor));
+  }
+  for (const ShelvedFactor& shelved : graph.shelved) {
+    document["shelved"].push_back(toJson(*shelved.factor));
+    document["shelved"].back()["kept"] = idOrNull(shelved.kept);
   }
   // a name that is no UTF-8 must not cost the file
   out << document.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';

@@ -128,13 +128,30 @@ class GraphJsonTest : public ::testing::Test {
     const Eigen::MatrixXd Lambda = test::randomInformation<9>(&random_);
     add<CondensedFactor>(a,
                          std::vector<CondensedFactor::Other>{
-                             {b, random_.pose()}, {wall, test::randomPlane(&random_, 9.0)}},
+                             {b, random_.pose(), test::randomInformation<6>(&random_)},
+                             {wall, test::randomPlane(&random_, 9.0)}},
                          CondensedFactor::Quadratic{Lambda, Lambda.col(2), 0.1});
+    shelveFactors();
+  }
+
+  /// Those of keyframe 1, which keyframe 0 stands for.
+  void shelveFactors() {
+    const KeyframeId kept{0};
+    const KeyframeId dropped{1};
+    const Matrix6 information = test::randomInformation<6>(&random_);
+    const RobustKernel huber{RobustKernel::Kind::kHuber, 3.0};
+    graph_.shelve(add<RelativePoseFactor>(kept, dropped, random_.pose(), information), kept);
+    graph_.shelve(add<RelativePoseFactor>(dropped, KeyframeId{6}, random_.pose(), information,
+                                          RelativePoseFactor::Kind::kLoopClosure, huber),
+                  std::nullopt);
+    graph_.shelve(add<PlaneObservationFactor>(dropped, WallId{4}, test::randomPlane(&random_, 9.0),
+                                              test::randomInformation<3>(&random_)),
+                  kept);
   }
 
   template <typename AnyFactor, typename... Arguments>
-  void add(Arguments&&... arguments) {
-    graph_.addFactor(std::make_shared<AnyFactor>(std::forward<Arguments>(arguments)...));
+  FactorId add(Arguments&&... arguments) {
+    return graph_.addFactor(std::make_shared<AnyFactor>(std::forward<Arguments>(arguments)...));
   }
 
   test::RandomGeometry random_{23, 500.0};
@@ -190,6 +207,36 @@ TEST_F(GraphJsonTest, EveryFactorCostsTheSameAfterwards) {
   }
 }
 
+TEST_F(GraphJsonTest, ShelvedFactorsAreOnTheShelfAgainAndNowhereElse) {
+  const LayeredGraph again = read(written(graph_));
+  const auto before = graph_.snapshot()->shelved;
+  const auto after = again.snapshot()->shelved;
+  ASSERT_EQ(before.size(), 3U);
+  ASSERT_EQ(after.size(), before.size());
+  EXPECT_EQ(again.factorCount(), graph_.factorCount());
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    EXPECT_STREQ(after[k].factor->type(), before[k].factor->type());
+    EXPECT_EQ(after[k].factor->node(1), before[k].factor->node(1));
+    EXPECT_EQ(after[k].kept, before[k].kept);
+  }
+  EXPECT_EQ(again.factorCountOf(KeyframeId{1}), 0U);
+  EXPECT_EQ(again.shelf().of(KeyframeId{1}).size(), 3U);
+  EXPECT_EQ(again.shelf().keptBy(KeyframeId{0}).size(), 2U);
+  EXPECT_TRUE(again.brokenShelves().empty());
+}
+
+TEST_F(GraphJsonTest, WaysOfCondensedFactorsComeBack) {
+  const LayeredGraph again = read(written(graph_));
+  const auto condensed = [](const LayeredGraph& graph) {
+    const auto last = static_cast<uint32_t>(graph.factorCount() - 1);
+    return dynamic_cast<const CondensedFactor&>(*graph.factorAt(last).factor);
+  };
+  ASSERT_TRUE(condensed(graph_).others()[0].way_covariance);
+  EXPECT_EQ(condensed(again).others()[0].way_covariance,
+            condensed(graph_).others()[0].way_covariance);
+  EXPECT_EQ(condensed(again).others()[1].way_covariance, std::nullopt);
+}
+
 TEST_F(GraphJsonTest, NodesKeepWhatIsKnownOfThem) {
   const LayeredGraph again = read(written(graph_));
   EXPECT_EQ(again.attributes(KeyframeId{1}).representative, KeyframeId{0});
@@ -239,7 +286,10 @@ TEST_F(GraphJsonTest, AFileFromBeforeTheShapesOfRoomsIsRead) {
   for (Json& floor : old["floors"]) {
     for (const char* field : {"connections", "rooms", "keyframes"}) floor.erase(field);
   }
+  old.erase("shelved");
+  for (Json& factor : old["factors"]) factor.erase("ways");
   const LayeredGraph again = read(old.dump());
+  EXPECT_TRUE(again.snapshot()->shelved.empty());
   EXPECT_EQ(again.attributes(RoomId{7}).height_m, 0.0);
   EXPECT_EQ(again.attributes(RoomId{7}).extent_map.outline,
             graph_.attributes(RoomId{7}).extent_map.outline);
@@ -287,16 +337,28 @@ TEST_F(GraphJsonTest, DamageIsNamedWithItsPlace) {
   expectComplaint("/floors/0/connections/0/to", 70, "floors/0 refers to floor 70");
   expectComplaint("/floors/0/connections/0/to", nullptr, "floors/0/connections/0/to is no id");
   expectComplaint("/walls/0", 7, "walls/0 is no object");
+  expectComplaint("/shelved", 7, "shelved is no list");
+  expectComplaint("/shelved/1/type", "magic", "graph.json: shelved/1/type 'magic' is no type");
+  expectComplaint("/shelved/1/information/0", -1e9, "shelved/1 is refused: loop_closure between");
+  expectComplaint("/shelved/0/nodes/1/keyframe", 55, "shelved/0 is refused: odometry between");
+  expectComplaint("/shelved/0/kept", 55, "shelved/0 refers to keyframe 55");
+  expectComplaint("/shelved/0/kept", "0", "shelved/0/kept is no id");
+  const std::string condensed = "/factors/" + std::to_string(graph_.factorCount() - 1);
+  expectComplaint((condensed + "/ways").c_str(), Json::array({nullptr}), "has 1 elements, not 2");
+  expectComplaint((condensed + "/ways/0").c_str(), Json::array({1}), "has 1 elements, not 21");
+  expectComplaint((condensed + "/ways/0/0").c_str(), -1e3, "/ways/0 is not positive semidefinite");
+  expectComplaint((condensed + "/ways/1").c_str(), good["factors"][0]["information"],
+                  "/ways/1 is a way to wall 4");
 }
 
 TEST_F(GraphJsonTest, EveryFieldThatIsMissingIsNamed) {
   const std::set<std::pair<std::string, std::string>> kOptional{
-      {"factors", "kernel"},  {"walls", "holes"},        {"walls", "floor"},
-      {"rooms", "holes"},     {"rooms", "height"},       {"rooms", "doorways"},
-      {"rooms", "keyframes"}, {"floors", "connections"}, {"floors", "rooms"},
-      {"floors", "keyframes"}};
+      {"factors", "kernel"},   {"walls", "holes"},        {"walls", "floor"},
+      {"rooms", "holes"},      {"rooms", "height"},       {"rooms", "doorways"},
+      {"rooms", "keyframes"},  {"floors", "connections"}, {"floors", "rooms"},
+      {"floors", "keyframes"}, {"factors", "ways"},       {"shelved", "kernel"}};
   const Json good = Json::parse(written(graph_));
-  for (const char* list : {"keyframes", "walls", "rooms", "floors", "factors"}) {
+  for (const char* list : {"keyframes", "walls", "rooms", "floors", "factors", "shelved"}) {
     for (std::size_t k = 0; k < good[list].size(); ++k) {
       for (const auto& field : good[list][k].items()) {
         const bool optional = kOptional.count({list, field.key()}) != 0;

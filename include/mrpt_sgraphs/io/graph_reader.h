@@ -12,8 +12,8 @@ namespace mrpt_sgraphs {
 
 /// Reads what writeGraphJson wrote, versions 1 and 2. Written again, it is the same to the last
 /// digit. What the file does not have is left out: the keyframes' clouds, the numbers of factors.
-/// Heights, holes, doorways, stairs and the walls' floors came in the course of version 2: without
-/// them a file is read as one that knows of none.
+/// Heights, holes, doorways, stairs, the walls' floors, shelved factors and the ways of condensed
+/// ones came in the course of version 2: without them a file is read as one that knows of none.
 ///
 /// @param name  What the file is called in errors.
 /// @throws std::runtime_error that says where in the file what is wrong, for anything else: no
