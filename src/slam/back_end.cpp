@@ -34,7 +34,8 @@ void BackEnd::addKeyframe(const Keyframe& keyframe, double segment_ms) {
   report->rooms_ms = rooms_ms;
 }
 
-RunRecord BackEnd::record() const {
+RunRecord BackEnd::record() {
+  log_.add(graph_slam_.finish());
   RunRecord run = log_.record(graph_slam_.snapshot());
   run.parameters = parameterList(config_);
   return run;

@@ -29,8 +29,9 @@ class BackEnd {
   std::size_t scans() const { return log_.scans(); }
   GraphSnapshotConstPtr graph() const { return graph_slam_.snapshot(); }
 
-  /// Everything so far, with the parameters of the back end. `wall_s` is the caller's to fill in.
-  RunRecord record() const;
+  /// Everything so far, with the parameters of the back end, after what the stages have put off: see
+  /// GraphSlam::finish. `wall_s` is the caller's to fill in.
+  RunRecord record();
 
  private:
   BackEndConfig config_;
