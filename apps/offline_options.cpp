@@ -38,6 +38,9 @@ po::options_description describedOptions(OfflineOptions* options) {
   add("params", po::value(&options->params), "parameter file, see config/default.yaml");
   add("mode", po::value(&options->mode),
       "baseline, paper or condensed, in place of the parameters' hierarchy/mode");
+  add("drift", po::value(&options->drift_rad_per_m),
+      "of a replay: the recorded odometry turns too far by this [rad per metre], to see what loop "
+      "closures make of it");
   add("base-frame", po::value(&options->base_frame),
       "frame whose trajectory is wanted (default: that of the clouds)");
   add("duration", po::value(&options->bags.duration_s), "stop after so many seconds of the bag");
@@ -97,6 +100,9 @@ std::optional<OfflineOptions> parseOfflineOptions(int argc, char** argv) {
     return std::nullopt;
   }
   requireOneSource(values);
+  if (values.count("drift") > 0 && values.count("replay") == 0) {
+    throw po::error("--drift is for --replay");
+  }
   po::notify(values);
   if (values.count("duration") > 0 && !(options.bags.duration_s > 0.0)) {
     throw po::error("--duration must be positive");

@@ -14,6 +14,7 @@
 #include "mrpt_sgraphs/ros/front_end_bag.h"
 #include "mrpt_sgraphs/ros/front_end_recorder.h"
 #include "mrpt_sgraphs/slam/config_file.h"
+#include "mrpt_sgraphs/slam/odometry_drift.h"
 #include "offline_options.h"
 #include "progress_bar.h"
 #include "remarks.h"
@@ -78,11 +79,14 @@ Played replay(const OfflineOptions& options, ProgressBar* bar, Remarks* remarks)
   requireWritableFolder(options.out);
 
   std::size_t refused = 0;
+  OdometryDrift drift(options.drift_rad_per_m);
   FrontEndHandlers handlers;
-  handlers.scan = [&](const ScanMotion& scan, const ScanReport& report) {
+  handlers.scan = [&](ScanMotion scan, const ScanReport& report) {
+    drift.apply(&scan);
     back_end.addScan(scan, report);
   };
-  handlers.keyframe = [&](const Keyframe& keyframe, double segment_ms) {
+  handlers.keyframe = [&](Keyframe keyframe, double segment_ms) {
+    drift.apply(&keyframe);
     try {
       back_end.addKeyframe(keyframe, segment_ms);
     } catch (const std::invalid_argument& error) {

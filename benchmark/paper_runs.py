@@ -49,9 +49,12 @@ REPORTED = {
     "peak_mib": ("peak_mib",),
 }
 CONSISTENT = {
-    "nees_mean": ("nees", "mean"),
-    "nees_p95": ("nees", "p95"),
-    "nees_dof": ("nees", "dof"),
+    "nees_pose": ("nees", "pose", "mean"),
+    "nees_position": ("nees", "position", "mean"),
+    "kl": ("compression", "kl_compressed_to_full_per_dof"),
+    "kl_reverse": ("compression", "kl_full_to_compressed_per_dof"),
+    "least_sigma": ("compression", "smallest_deviation", "ratio"),
+    "largest_sigma": ("compression", "largest_deviation", "ratio"),
 }
 
 
@@ -118,11 +121,7 @@ def consistency_of(case, run, arguments):
     file = run / "consistency.json"
     run_program([program, run, "--truth", case.truth, "--json"], file)
     said = json.loads(file.read_text())
-    columns = measured_columns(said, CONSISTENT)
-    for name, value in (said.get("kl") or {}).items():
-        if isinstance(value, (int, float)) and not isinstance(value, bool):
-            columns[f"kl_{name}"] = value
-    return columns
+    return measured_columns(said, CONSISTENT)
 
 
 def run_mode(case, recording, mode, arguments):
