@@ -221,15 +221,14 @@ CondensedFactor conditioned(const CondensedFactor& factor, const VariableView* v
   const Pose& T_map_kept = values[0].as<Pose>();
   std::vector<CondensedFactor::Other> moving;
   std::vector<Eigen::Index> rows;  // of what moves
-  std::vector<Eigen::Index> fixed_rows;
-  Eigen::VectorXd e(all.eta.size());
+  Eigen::VectorXd e = Eigen::VectorXd::Zero(all.eta.size());  // of what stays
   Eigen::Index row = 0;
   for (std::size_t k = 0; k < factor.others().size(); ++k) {
     const CondensedFactor::Other& other = factor.others()[k];
     const Eigen::Index size = tangentSize(other.node.layer);
-    for (Eigen::Index i = 0; i < size; ++i) (is_fixed[k + 1] ? fixed_rows : rows).push_back(row + i);
     if (!is_fixed[k + 1]) {
       moving.push_back(other);
+      for (Eigen::Index i = 0; i < size; ++i) rows.push_back(row + i);
     } else if (const Plane* plane = std::get_if<Plane>(&other.seen_kept)) {
       e.segment<3>(row) = planeResidual(*plane, tangentBasis(plane->normal), T_map_kept,
                                         values[k + 1].as<Plane>(), nullptr, nullptr);
@@ -239,21 +238,16 @@ CondensedFactor conditioned(const CondensedFactor& factor, const VariableView* v
     }
     row += size;
   }
+  const Eigen::VectorXd Lambda_e = all.Lambda * e;
   const auto n = static_cast<Eigen::Index>(rows.size());
-  CondensedFactor::Quadratic quadratic{Eigen::MatrixXd(n, n), Eigen::VectorXd(n), all.c};
+  CondensedFactor::Quadratic quadratic{Eigen::MatrixXd(n, n), Eigen::VectorXd(n),
+                                       all.c + e.dot(Lambda_e - 2.0 * all.eta)};
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto column = all.Lambda.col(rows[static_cast<std::size_t>(i)]);
+    const Eigen::Index at = rows[static_cast<std::size_t>(i)];
     for (Eigen::Index j = 0; j < n; ++j) {
-      quadratic.Lambda(j, i) = column(rows[static_cast<std::size_t>(j)]);
+      quadratic.Lambda(j, i) = all.Lambda(rows[static_cast<std::size_t>(j)], at);
     }
-    double eta = all.eta(rows[static_cast<std::size_t>(i)]);
-    for (const Eigen::Index fixed : fixed_rows) eta -= column(fixed) * e(fixed);
-    quadratic.eta(i) = eta;
-  }
-  for (const Eigen::Index i : fixed_rows) {
-    double Lambda_e = 0.0;
-    for (const Eigen::Index j : fixed_rows) Lambda_e += all.Lambda(j, i) * e(j);
-    quadratic.c += e(i) * (Lambda_e - 2.0 * all.eta(i));
+    quadratic.eta(i) = all.eta(at) - Lambda_e(at);
   }
   return {factor.kept(), std::move(moving), std::move(quadratic)};
 }

@@ -16,6 +16,9 @@ namespace mrpt_sgraphs {
 namespace {
 
 constexpr int kOutside = -1;
+/// Fixed, and no variable before a factor needs it: most of what a condensed factor ties together is
+/// far away from a window.
+constexpr int kWaiting = -2;
 
 /// Which variable a node is. A small selection of a large graph does not pay for all its nodes.
 class VariableNumbers {
@@ -66,8 +69,8 @@ class SelectedProblem {
   SelectedProblem(const Selection& selection, const LayeredGraph& graph)
       : graph_(graph), variables_(selection.free.size() + selection.fixed.size(), graph) {
     problem_.reserve(selection.free.size() + selection.fixed.size(), countLinks(selection));
-    for (const NodeId node : selection.free) addVariable(node, false);
-    for (const NodeId node : selection.fixed) addVariable(node, true);
+    for (const NodeId node : selection.free) addVariable(newHandle(node), false);
+    for (const NodeId node : selection.fixed) variables_.set(newHandle(node), kWaiting);
     std::vector<char> is_summed(nodes_.size(), 0);
     for (const SummedObservationsFactor& sum : selection.sums) is_summed[addSum(sum)] = 1;
     for (std::size_t k = 0; k < selection.free.size(); ++k) {
@@ -115,17 +118,25 @@ class SelectedProblem {
     for (const FactorLink& link : links) addFactor(node, link.slot, selection.outside);
   }
 
-  void addVariable(NodeId node, bool fixed) {
+  NodeHandle newHandle(NodeId node) const {
     const NodeHandle handle = graph_.handle(node);
     if (variableOf(handle) != kOutside) {
       throw std::invalid_argument(nameOf(node) + " is selected twice");
     }
+    return handle;
+  }
+
+  int addVariable(NodeHandle handle, bool fixed) {
+    const NodeId node = graph_.nodeAt(handle);
     const int variable = isPlane(node.layer)
                              ? problem_.addVariable(node, graph_.plane(handle), fixed)
                              : problem_.addVariable(node, graph_.pose(handle), fixed);
     variables_.set(handle, variable);
     nodes_.push_back(handle);
+    return variable;
   }
+
+  bool isFree(int variable) const { return variable >= 0 && !problem_.isFixed(variable); }
 
   /// Adds the factor if `node` is the first of its free ones: so none is added twice.
   void addFactor(NodeHandle node, uint32_t factor, Selection::Outside outside) {
@@ -137,14 +148,18 @@ class SelectedProblem {
       ends_.push_back(variable);
       if (variable == kOutside) {
         complete = false;
-      } else if (!found_free && !problem_.isFixed(variable)) {
+      } else if (!found_free && isFree(variable)) {
         if (!(end.node == node)) return;
         found_free = true;
       }
     }
     const Factor& stored = *graph_.factorAt(factor).factor;
     if (complete) {
-      if (!addConditioned(stored)) problem_.addFactor(stored, ends_.data());
+      if (addConditioned(stored, factor)) return;
+      for (std::size_t k = 0; k < ends_.size(); ++k) {
+        if (ends_[k] == kWaiting) ends_[k] = addVariable(graph_.topology().ends(factor)[k].node, true);
+      }
+      problem_.addFactor(stored, ends_.data());
     } else if (outside == Selection::Outside::kIsAnError) {
       throw std::invalid_argument(nameOf(graph_.nodeAt(node)) + " is joined by " + stored.type() +
                                   " to " + outsideEndsOf(stored) + ", not in the selection");
@@ -153,18 +168,30 @@ class SelectedProblem {
 
   /// A condensed factor ties a room's nodes together, of which a window has few.
   /// @return Whether it was one of which enough stays as it is.
-  bool addConditioned(const Factor& factor) {
+  bool addConditioned(const Factor& factor, uint32_t slot) {
+    if (ends_.size() < 3 || isFree(ends_[0])) return false;
     const auto* const condensed = dynamic_cast<const CondensedFactor*>(&factor);
-    if (condensed == nullptr || !problem_.isFixed(ends_[0])) return false;
+    if (condensed == nullptr) return false;
+    const auto& nodes = graph_.topology().ends(slot);
+    std::vector<Pose> poses(ends_.size());
+    std::vector<Plane> planes(ends_.size());
     std::vector<VariableView> values;
     std::vector<bool> is_fixed;
     std::vector<int> moving;
-    for (const int variable : ends_) {
-      values.push_back(problem_.view(variable));
-      is_fixed.push_back(problem_.isFixed(variable));
-      if (moving.empty() || !is_fixed.back()) moving.push_back(variable);
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+      is_fixed.push_back(!isFree(ends_[k]));
+      if (isPlane(nodes[k].node.layer)) {
+        planes[k] = graph_.plane(nodes[k].node);
+        values.emplace_back(planes[k]);
+      } else {
+        poses[k] = graph_.pose(nodes[k].node);
+        values.emplace_back(poses[k]);
+      }
+      if (!is_fixed.back()) moving.push_back(ends_[k]);
     }
-    if (moving.size() == ends_.size()) return false;
+    if (moving.size() + 1 == ends_.size()) return false;
+    const int kept = ends_[0] == kWaiting ? addVariable(nodes[0].node, true) : ends_[0];
+    moving.insert(moving.begin(), kept);
     conditioned_.push_back(conditioned(*condensed, values.data(), is_fixed));
     problem_.addFactor(conditioned_.back(), moving.data());
     return true;

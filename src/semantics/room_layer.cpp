@@ -115,7 +115,7 @@ DetectedRoom inGraph(DetectedRoom room, const LayeredGraph& graph) {
 }  // namespace
 
 bool RoomLayer::update(const RoomDetection& detection, LayeredGraph* graph) {
-  changed_.clear();
+  grown_.clear();
   std::vector<DetectedRoom> rooms;
   for (const DetectedRoom& room : detection.rooms) rooms.push_back(inGraph(room, *graph));
   std::vector<std::optional<RoomId>> nodes = matchRooms(rooms, *graph);
@@ -133,8 +133,9 @@ bool RoomLayer::update(const RoomDetection& detection, LayeredGraph* graph) {
   updateExactness(rooms, *graph);
   for (std::size_t k = 0; k < rooms.size(); ++k) {
     if (!nodes[k]) continue;
+    const bool has_grown = graph->attributes(*nodes[k]).walls != attributes[k].walls;
     if (!bringInLine(*nodes[k], rooms[k], attributes[k], graph)) continue;
-    changed_.push_back(*nodes[k]);
+    if (has_grown) grown_.push_back(*nodes[k]);
     changed = true;
   }
   assignKeyframes(detection, nodes, graph);

@@ -113,15 +113,15 @@ bool GraphSlam::State::reuniteRooms() {
 
 void GraphSlam::State::optimize(Stage stage, std::vector<OptimizationSummary>* optimizations) {
   constexpr std::size_t kFew = 3;  // more rooms are optimized faster with all the rest
-  const std::vector<RoomId>& changed = rooms.changed();
-  if (stage == Stage::kRooms && (changed.empty() || !stages->compresses())) stage = Stage::kLocal;
-  if (stage == Stage::kRooms && changed.size() > kFew) stage = Stage::kEverything;
+  const std::vector<RoomId>& grown = rooms.grown();
+  if (stage == Stage::kRooms && !stages->compresses()) stage = Stage::kLocal;
+  if (stage == Stage::kRooms && grown.size() > kFew) stage = Stage::kEverything;
   switch (stage) {
     case Stage::kLocal:
       optimizations->push_back(stages->local(&graph));
       break;
     case Stage::kRooms:
-      for (const RoomId room : changed) optimizations->push_back(stages->room(room, &graph));
+      for (const RoomId room : grown) optimizations->push_back(stages->room(room, &graph));
       break;
     case Stage::kEverything:
       optimizations->push_back(stages->global(std::nullopt, &graph));
@@ -136,10 +136,10 @@ void GraphSlam::State::optimize(Stage stage, std::vector<OptimizationSummary>* o
 void GraphSlam::State::settle(Stage stage, std::vector<OptimizationSummary>* optimizations) {
   const bool after_loop = stage == Stage::kAfterLoop;
   // Each round but the first is for walls that were merged or split in the one before; what is left
-  // then waits for the next keyframe.
-  constexpr int kMaxRounds = 3;
+  // then waits for the next keyframe, as it does where there is one soon.
+  const int max_rounds = stages->compresses() && !after_loop ? 1 : 3;
   if (after_loop && config.walls.enabled) walls.release(&graph);
-  for (int round = 0; round < kMaxRounds; ++round) {
+  for (int round = 0; round < max_rounds; ++round) {
     rooms.mend(&graph);
     optimize(stage, optimizations);
     rooms.follow(&graph);
@@ -214,7 +214,9 @@ std::vector<OptimizationSummary> GraphSlam::setFloors(const FloorDetection& dete
 std::vector<OptimizationSummary> GraphSlam::setRooms(const RoomDetection& detection) {
   std::vector<OptimizationSummary> optimizations;
   const bool changed = state_->rooms.update(detection, &state_->graph);
-  if (changed) state_->settle(State::Stage::kRooms, &optimizations);
+  // what has just got other weights can wait for the next keyframe
+  const bool can_wait = state_->stages->compresses() && state_->rooms.grown().empty();
+  if (changed && !can_wait) state_->settle(State::Stage::kRooms, &optimizations);
   if (state_->reuniteRooms()) state_->settle(State::Stage::kAfterLoop, &optimizations);
   state_->stages->compress(changed, &state_->graph, &optimizations);
   return optimizations;

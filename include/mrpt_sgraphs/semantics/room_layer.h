@@ -31,8 +31,8 @@ class RoomLayer {
   /// @return Whether factors have come or gone.
   bool update(const RoomDetection& detection, LayeredGraph* graph);
 
-  /// Those that have other factors than before the last update.
-  const std::vector<RoomId>& changed() const { return changed_; }
+  /// Those that the last update has found, or given other walls.
+  const std::vector<RoomId>& grown() const { return grown_; }
 
   /// To be called before an optimization: rooms that have lost walls, or whose floor has become
   /// another, are held by other factors.
@@ -71,7 +71,7 @@ class RoomLayer {
   RoomLayerConfig config_;
   std::map<RoomId, Known> known_;
   std::map<RoomId, int> missed_;  ///< How often in a row each was not found, of those that were not.
-  std::vector<RoomId> changed_;
+  std::vector<RoomId> grown_;
   RightAngles exactness_;  ///< Of the building, as far as it is known, and what from:
   std::vector<WallId> measured_walls_;
   double measured_keyframes_ = 0.0;
