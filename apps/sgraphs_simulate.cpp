@@ -179,7 +179,9 @@ void writeBag(const std::string& path, sim::Simulation& simulation) {
 }
 
 int simulate(const sim::Options& options) {
-  sim::Simulation simulation(sim::loadBuilding(options.building_file), options.simulation);
+  const sim::Building building =
+      sim::withTours(sim::loadBuilding(options.building_file), options.tours);
+  sim::Simulation simulation(building, options.simulation);
   if (simulation.scanCount() == 0) throw std::invalid_argument("--duration is less than a sweep");
   std::filesystem::create_directories(options.out_directory);
   sim::AtomicFile bag(std::filesystem::path(options.out_directory) / "run.bag");

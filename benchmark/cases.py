@@ -9,6 +9,7 @@ from typing import NamedTuple, Optional
 
 HERE = Path(__file__).resolve().parent
 BUILDINGS = HERE.parent / "sim/buildings"
+FOR_LONG_RUNS = {"campaign"}  # Not among those that are meant if none is named.
 INPUTS = {"none": [], "imu": ["--imu", "/imu"], "odom": ["--odom", "/odom"]}
 
 
@@ -58,7 +59,8 @@ def simulated_cases(building, arguments):
 
 
 def all_cases(arguments):
-    for text in arguments.sets or sorted(p.stem for p in BUILDINGS.glob("*.yaml")):
+    shipped = sorted({p.stem for p in BUILDINGS.glob("*.yaml")} - FOR_LONG_RUNS)
+    for text in arguments.sets or shipped:
         building = Path(text) if text.endswith(".yaml") else BUILDINGS / f"{text}.yaml"
         if building.exists():
             yield from simulated_cases(building, arguments)
@@ -74,21 +76,25 @@ def run_program(command, log):
         raise RuntimeError(f"{Path(command[0]).name} failed, see {log}")
 
 
-def simulate(case, programs):
-    """Makes the bag if it is not there, or was made from something else."""
-    options = ["--building", case.building, "--sensor", case.sensor, "--seed", case.seed,
-               "--rotate-deg", f"{case.rotation_deg:g}"]
-    described = " ".join(str(word) for word in options[2:]) + " of building "
-    described += hashlib.sha256(case.building.read_bytes()).hexdigest()
-    folder = case.bag.parent
+def make_bag(folder, building, options, programs):
+    """Simulates folder/run.bag if it is not there, or was made from something else."""
+    described = " ".join(str(word) for word in options) + " of building "
+    described += hashlib.sha256(building.read_bytes()).hexdigest()
     made_from = folder / "made_from.txt"
-    if case.bag.exists() and made_from.exists() and made_from.read_text() == described:
+    is_there = (folder / "run.bag").exists() and made_from.exists()
+    if is_there and made_from.read_text() == described:
         return
     folder.mkdir(parents=True, exist_ok=True)
     made_from.unlink(missing_ok=True)
-    run_program([programs / "sgraphs_simulate", *options, "--out", folder],
-                folder / "simulate.log")
+    command = [programs / "sgraphs_simulate", "--building", building, *options, "--out", folder]
+    run_program(command, folder / "simulate.log")
     made_from.write_text(described)
+
+
+def simulate(case, programs):
+    options = ["--sensor", case.sensor, "--seed", case.seed, "--rotate-deg",
+               f"{case.rotation_deg:g}"]
+    make_bag(case.bag.parent, case.building, options, programs)
 
 
 def input_options(case, arguments):

@@ -255,6 +255,15 @@ Building turned(Building building, double angle_rad) {
   return building;
 }
 
+Building withTours(Building building, std::size_t tours) {
+  const std::vector<TourStop> tour = std::move(building.tour);
+  building.tour.clear();
+  for (std::size_t k = 0; k < tours; ++k) {
+    building.tour.insert(building.tour.end(), tour.begin(), tour.end());
+  }
+  return building;
+}
+
 Building loadBuilding(const std::string& file) {
   Building building = BuildingReader(file).read();
   checkRooms(building);

@@ -147,6 +147,9 @@ struct Building {
 /// The building with everything in it turned about the origin.
 Building turned(Building building, double angle_rad);
 
+/// The building with its tour walked so many times, one after the other.
+Building withTours(Building building, std::size_t tours);
+
 /// Reads a building file, finds the walls of its doors and windows, and checks that it can be
 /// built.
 /// @throws std::invalid_argument naming file, line and field.

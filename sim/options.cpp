@@ -19,7 +19,8 @@ class Arguments {
  public:
   Arguments(int argc, const char* const* argv) {
     static const std::set<std::string> known{"--building", "--sensor",   "--seed", "--out",
-                                             "--gait",     "--duration", "--rate", "--rotate-deg"};
+                                             "--gait",     "--duration", "--rate", "--rotate-deg",
+                                             "--tours"};
     for (int k = 1; k < argc; k += 2) {
       const std::string option = argv[k];
       if (known.count(option) == 0) throw std::invalid_argument("unknown option '" + option + "'");
@@ -89,6 +90,13 @@ Options parseOptions(int argc, const char* const* argv) {
   options.simulation.seed = arguments.whole("--seed");
   options.simulation.robot =
       robotNamed(arguments.has("--gait") ? arguments.text("--gait") : "legged");
+  if (arguments.has("--tours")) {
+    options.tours = static_cast<std::size_t>(arguments.whole("--tours"));
+    constexpr std::size_t kMost = 1000;  // nobody waits for more
+    if (options.tours < 1 || options.tours > kMost) {
+      throw std::invalid_argument("--tours must be from 1 to 1000");
+    }
+  }
   if (arguments.has("--duration")) {
     options.simulation.max_duration_s = arguments.positive("--duration");
   }
@@ -120,7 +128,8 @@ std::string usage() {
          "  --out DIR          gets run.bag and truth/{trajectory.tum,base_trajectory.tum,\n"
          "                     building.json}\n"
          "  --gait NAME        legged (default) or wheeled\n"
-         "  --duration S       stops after S seconds, if the tour is longer\n"
+         "  --tours N          walks the tour N times, one after the other (default 1)\n"
+         "  --duration S       stops after S seconds, if that is before the end\n"
          "  --rate HZ          sweeps per second (default 10)\n"
          "  --rotate-deg A     turns the building and the walk in it by A degrees about the\n"
          "                     origin, in addition to the rotation_deg of the file. The robot\n"

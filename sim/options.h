@@ -13,6 +13,7 @@ struct Options {
   bool help = false;  ///< Nothing else is filled in then.
   std::string building_file;
   std::string out_directory;
+  std::size_t tours = 1;  ///< One after the other.
   SimulationConfig simulation;
 };
 

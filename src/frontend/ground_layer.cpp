@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <set>
 
 namespace mrpt_sgraphs {
 namespace {
@@ -84,7 +85,7 @@ bool GroundLayer::associate(const WayToNewest& way, LayeredGraph* graph) {
   stand(heightUnderBase(ground.plane_base, up_base), way.way_m());
 
   refreshPlanes(*graph);
-  SurfaceSighting sighting{newest, *index, {}, 0.0};
+  SurfaceSighting sighting = sightingOf(newest, planes, *index, 0.0);
   Level* level = levelOf(ground, way, *graph);
   if (level == nullptr) {
     levels_.emplace_back();
@@ -131,8 +132,10 @@ bool GroundLayer::merge(FloorId stays, FloorId goes, LayeredGraph* graph) {
   const auto level = levelWith(stays);
   const auto other = levelWith(goes);
   if (level == levels_.end() || other == levels_.end() || stays == goes) return false;
-  graph->eraseNode(goes);
-  for (SurfaceSighting& sighting : other->sightings) addFactor(&sighting, stays, graph);
+  replaceSurface(goes, stays, config_.kernel_chi2, &other->sightings, graph);
+  for (const SurfaceSighting& sighting : other->sightings) {
+    setFloor(sighting.keyframe, stays, graph);
+  }
   level->sightings = mergedByKeyframe(level->sightings, other->sightings);
   level->seen_at_m = std::max(level->seen_at_m, other->seen_at_m);
   refit(*graph, &*level);
@@ -159,9 +162,22 @@ void GroundLayer::refreshPlanes(const LayeredGraph& graph) {
 
 void GroundLayer::addFactor(SurfaceSighting* sighting, FloorId floor, LayeredGraph* graph) const {
   addObservation(floor, config_.kernel_chi2, sighting, graph);
-  KeyframeAttributes attributes = graph->attributes(sighting->keyframe);
+  setFloor(sighting->keyframe, floor, graph);
+}
+
+void GroundLayer::setFloor(KeyframeId keyframe, FloorId floor, LayeredGraph* graph) {
+  KeyframeAttributes attributes = graph->attributes(keyframe);
   attributes.floor = floor;
-  graph->setAttributes(sighting->keyframe, attributes);
+  graph->setAttributes(keyframe, attributes);
+}
+
+void GroundLayer::letPlanesGo(const std::vector<KeyframeId>& keyframes) {
+  const std::set<KeyframeId> going(keyframes.begin(), keyframes.end());
+  for (Level& level : levels_) {
+    for (SurfaceSighting& sighting : level.sightings) {
+      if (going.count(sighting.keyframe) > 0) letGo(&sighting);
+    }
+  }
 }
 
 void GroundLayer::updateFloor(const Level& level, LayeredGraph* graph) const {

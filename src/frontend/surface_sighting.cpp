@@ -11,6 +11,24 @@
 #include <memory>
 
 namespace mrpt_sgraphs {
+namespace {
+
+/// The factor of a sighting that has let go of what was seen.
+const PlaneObservationFactor& knownBy(const SurfaceSighting& sighting, const LayeredGraph& graph) {
+  return dynamic_cast<const PlaneObservationFactor&>(*graph.factor(*sighting.factor));
+}
+
+}  // namespace
+
+SurfaceSighting sightingOf(KeyframeId keyframe, const ObservedPlanesConstPtr& planes,
+                           std::size_t plane, double way_sigma_m) {
+  SurfaceSighting sighting;
+  sighting.keyframe = keyframe;
+  sighting.plane = plane;
+  sighting.way_sigma_m = way_sigma_m;
+  sighting.observed = {planes, &planes->at(plane)};
+  return sighting;
+}
 
 int keyframesOf(const std::vector<SurfaceSighting>& sightings) {
   int count = 0;
@@ -32,39 +50,69 @@ std::vector<SurfaceSighting> mergedByKeyframe(const std::vector<SurfaceSighting>
 void dropErased(const LayeredGraph& graph, std::vector<SurfaceSighting>* sightings) {
   const auto is_gone = [&graph](const SurfaceSighting& sighting) {
     return !graph.contains(sighting.keyframe) ||
-           (sighting.factor && !graph.contains(*sighting.factor));
+           (sighting.factor && !graph.contains(*sighting.factor)) ||
+           (!sighting.factor && sighting.observed == nullptr);
   };
   sightings->erase(std::remove_if(sightings->begin(), sightings->end(), is_gone), sightings->end());
 }
 
-const ObservedPlane& observedBy(const SurfaceSighting& sighting, const LayeredGraph& graph) {
-  return graph.attributes(sighting.keyframe).planes->at(sighting.plane);
+void letGo(SurfaceSighting* sighting) {
+  if (sighting->observed == nullptr) return;
+  sighting->centroid_base = sighting->observed->centroid_base;
+  sighting->observed.reset();
+}
+
+MeasuredPlane measuredBy(const SurfaceSighting& sighting, const LayeredGraph& graph) {
+  if (sighting.observed != nullptr) {
+    const ObservedPlane& seen = *sighting.observed;
+    return {seen.plane_base, seen.covariance, seen.centroid_base};
+  }
+  const PlaneObservationFactor& known = knownBy(sighting, graph);
+  return {known.measured_base, known.information().inverse(), sighting.centroid_base};
 }
 
 bool canBeSighted(const ObservedPlane& plane) {
   return plane.extent_base.outline.size() >= 3 && isSound(plane);
 }
 
-PlaneObservationFactor observationOf(KeyframeId keyframe, NodeId surface,
-                                     const ObservedPlane& plane, const RobustKernel& kernel) {
-  const Eigen::Matrix3d information = plane.covariance.inverse();
-  return {keyframe, surface, plane.plane_base, 0.5 * (information + information.transpose()),
-          kernel};
+PlaneObservationFactor observationOf(const SurfaceSighting& sighting, NodeId surface,
+                                     const LayeredGraph& graph, const RobustKernel& kernel) {
+  if (sighting.observed == nullptr) {
+    const PlaneObservationFactor& known = knownBy(sighting, graph);
+    return {sighting.keyframe, surface, known.measured_base, known.information(), kernel};
+  }
+  const Eigen::Matrix3d information = sighting.observed->covariance.inverse();
+  return {sighting.keyframe, surface, sighting.observed->plane_base,
+          0.5 * (information + information.transpose()), kernel};
 }
 
 void addObservation(NodeId surface, double kernel_chi2, SurfaceSighting* sighting,
                     LayeredGraph* graph) {
   const RobustKernel doubt{RobustKernel::Kind::kHuber, kernel_chi2};
   sighting->factor = graph->addFactor(std::make_shared<PlaneObservationFactor>(
-      observationOf(sighting->keyframe, surface, observedBy(*sighting, *graph), doubt)));
+      observationOf(*sighting, surface, *graph, doubt)));
+}
+
+void replaceSurface(NodeId goes, NodeId stays, double kernel_chi2,
+                    std::vector<SurfaceSighting>* sightings, LayeredGraph* graph) {
+  // made before: of some, the factors that go are all that is known
+  const RobustKernel doubt{RobustKernel::Kind::kHuber, kernel_chi2};
+  std::vector<FactorConstPtr> observations;
+  for (const SurfaceSighting& sighting : *sightings) {
+    observations.push_back(std::make_shared<PlaneObservationFactor>(
+        observationOf(sighting, stays, *graph, doubt)));
+  }
+  graph->eraseNode(goes);
+  for (std::size_t k = 0; k < sightings->size(); ++k) {
+    (*sightings)[k].factor = graph->addFactor(observations[k]);
+  }
 }
 
 ObservationSum summed(const std::vector<SurfaceSighting>& sightings, const Plane& near_map,
                       const Eigen::Vector3d& anchor_map, const LayeredGraph& graph) {
   ObservationSum sum(near_map, anchor_map);
   for (const SurfaceSighting& sighting : sightings) {
-    const ObservedPlane& observed = observedBy(sighting, graph);
-    sum.add(observationOf(sighting.keyframe, WallId{}, observed), graph.pose(sighting.keyframe));
+    sum.add(observationOf(sighting, WallId{}, graph), graph.pose(sighting.keyframe));
   }
   return sum;
 }
@@ -99,7 +147,7 @@ Eigen::Matrix3d covarianceOf(const SurfaceTrack& track, const SigmaFloor& floor)
 
 void refit(const LayeredGraph& graph, SurfaceTrack* track) {
   const SurfaceSighting& first = track->sightings.front();
-  track->anchor_map = graph.pose(first.keyframe) * observedBy(first, graph).centroid_base;
+  track->anchor_map = graph.pose(first.keyframe) * measuredBy(first, graph).centroid_base;
   const ObservationSum sum = summed(track->sightings, track->plane_map, track->anchor_map, graph);
   track->information = sum.A;
   track->plane_map = fitted(sum, track->plane_map);

@@ -3,6 +3,8 @@
 
 #include "mrpt_sgraphs/frontend/wall_extent.h"
 
+#include <limits>
+
 namespace mrpt_sgraphs {
 namespace {
 
@@ -17,6 +19,15 @@ WallExtent WallExtent::drawn(const PlanarExtent& extent_map) const {
   result.frame_ = frame_;
   result.cell_m_ = cell_m_;
   result.cells_ = rasterized(flattened(extent_map, frame_), cell_m_);
+  return result;
+}
+
+WallExtent WallExtent::moved(const Pose& T_map_before) const {
+  WallExtent result = *this;
+  result.frame_.origin = T_map_before * frame_.origin;
+  for (Eigen::Vector3d* axis : {&result.frame_.normal, &result.frame_.u, &result.frame_.v}) {
+    *axis = (T_map_before.linear() * *axis).eval();
+  }
   return result;
 }
 
@@ -74,7 +85,29 @@ CellSet WallExtent::cellsOn(const PlaneFrame& frame, double cell_m) const {
 }
 
 double WallExtent::sharedArea_m2(const WallExtent& other) const {
-  return static_cast<double>(sharedSize(cells_, other.onGridOf(*this))) * cell_m_ * cell_m_;
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  return static_cast<double>(sharedCells(other, kAll)) * cell_m_ * cell_m_;
+}
+
+/// As many as the other drawn on this grid would have in common with this one, without drawing it.
+std::size_t WallExtent::sharedCells(const WallExtent& other, std::size_t enough) const {
+  if (empty() || other.empty()) return 0;
+  if (isSameGrid(frame_, other.frame_)) return sharedSize(cells_, other.cells_);
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector3d& corner : other.corners_map()) box.extend(frame_.flat(corner));
+  const CellBox both =
+      cells_.box().shared({cellAt(box.min(), cell_m_), cellAt(box.max(), cell_m_)});
+  std::size_t count = 0;
+  for (Cell cell{0, both.min.row}; cell.row <= both.max.row; ++cell.row) {
+    for (cell.column = both.min.column; cell.column <= both.max.column; ++cell.column) {
+      if (!cells_.contains(cell)) continue;
+      const Eigen::Vector2d centre =
+          Eigen::Vector2d(cell.column + 0.5, cell.row + 0.5) * cell_m_;
+      const Cell seen = cellAt(other.frame_.flat(frame_.lifted(centre)), other.cell_m_);
+      if (other.cells_.contains(seen) && ++count >= enough) return count;
+    }
+  }
+  return count;
 }
 
 std::optional<double> WallExtent::gap_m(const WallExtent& other) const {

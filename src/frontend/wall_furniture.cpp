@@ -4,6 +4,7 @@
 // What looks like a wall and is a shelf, a cabinet, a row of tables or a pillar.
 
 #include <cmath>
+#include <iterator>
 
 #include "mrpt_sgraphs/frontend/wall_layer.h"
 
@@ -45,12 +46,18 @@ bool WallLayer::hasWallBehind(const WallTrack& track) const {
 
 bool WallLayer::giveUpFurniture(LayeredGraph* graph) {
   bool changed = false;
-  for (auto& [number, track] : tracks_) {
-    if (!track.is_furniture || !track.id || !isFree(track, *graph)) continue;
+  for (auto entry = tracks_.begin(); entry != tracks_.end();) {
+    auto& [number, track] = *entry;
+    if (!track.is_furniture || !track.id || !isFree(track, *graph)) {
+      ++entry;
+      continue;
+    }
     erasePairsOf(number, graph);
     for (SurfaceSighting& sighting : track.sightings) sighting.factor.reset();
     graph->eraseNode(*track.id);
     track.id.reset();
+    mrpt_sgraphs::dropErased(*graph, &track.sightings);  // what was let go of has no factor now
+    entry = track.sightings.empty() ? tracks_.erase(entry) : std::next(entry);
     changed = true;
   }
   return changed;

@@ -92,7 +92,7 @@ std::vector<WallLayer::Match> WallLayer::matchesOf(const WayToNewest& way,
 }
 
 bool WallLayer::isCoplanarWithAll(const std::vector<SurfaceSighting>& sightings,
-                                  KeyframeId keyframe, const ObservedPlane& plane,
+                                  KeyframeId keyframe, const MeasuredPlane& plane,
                                   const LayeredGraph& graph) const {
   // those of one keyframe lie together, in the order of the keyframes
   const auto before = [](const SurfaceSighting& sighting, KeyframeId id) {
@@ -100,7 +100,7 @@ bool WallLayer::isCoplanarWithAll(const std::vector<SurfaceSighting>& sightings,
   };
   auto sighting = std::lower_bound(sightings.begin(), sightings.end(), keyframe, before);
   for (; sighting != sightings.end() && sighting->keyframe == keyframe; ++sighting) {
-    const ObservedPlane& other = observedBy(*sighting, graph);
+    const MeasuredPlane other = measuredBy(*sighting, graph);
     const double chi2 =
         chi2Between(plane.plane_base, plane.covariance, other.plane_base, other.covariance);
     if (chi2 > config_.max_chi2 &&
@@ -125,11 +125,11 @@ bool WallLayer::associate(const WayToNewest& way, LayeredGraph* graph) {
   const std::vector<Match> matches = matchesOf(way, *graph);
   for (const Match& match : matches) {
     WallTrack& track = tracks_.at(match.track);
-    const ObservedPlane& plane = (*planes)[match.plane];
     if (taken[match.plane] || !isBelieved(match, matches)) continue;
+    SurfaceSighting sighting = sightingOf(newest, planes, match.plane, match.fit.way_sigma_m);
+    const MeasuredPlane plane = measuredBy(sighting, *graph);
     if (!isCoplanarWithAll(track.sightings, newest, plane, *graph)) continue;
     taken[match.plane] = true;
-    SurfaceSighting sighting{newest, match.plane, {}, match.fit.way_sigma_m};
     if (track.id) {
       addObservation(*track.id, config_.kernel_chi2, &sighting, graph);
       changed = true;
@@ -139,7 +139,8 @@ bool WallLayer::associate(const WayToNewest& way, LayeredGraph* graph) {
   }
   for (std::size_t k = 0; k < planes->size(); ++k) {
     if (taken[k] || !isWallLike((*planes)[k], T_map_base)) continue;
-    begin({{newest, k, {}, 0.0}}, T_map_base * (*planes)[k].plane_base, way.way_m(), *graph);
+    begin({sightingOf(newest, planes, k, 0.0)}, T_map_base * (*planes)[k].plane_base, way.way_m(),
+          *graph);
   }
   lookThrough(newest, *graph);
   if (giveUpFurniture(graph)) changed = true;
@@ -181,6 +182,16 @@ void WallLayer::forgetUnseen(double way_m) {
     const bool forgotten =
         !track->second.id && way_m - track->second.seen_at_m > config_.forget_after_m;
     track = forgotten ? tracks_.erase(track) : std::next(track);
+  }
+}
+
+void WallLayer::letPlanesGo(const std::vector<KeyframeId>& keyframes, const LayeredGraph& graph) {
+  const std::set<KeyframeId> going(keyframes.begin(), keyframes.end());
+  for (auto entry = tracks_.begin(); entry != tracks_.end();) {
+    WallTrack& track = entry->second;
+    letGo(going, config_.cell_m, graph, &track);
+    const bool gone = !track.id && track.sightings.empty();
+    entry = gone ? tracks_.erase(entry) : std::next(entry);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -18,8 +19,7 @@ std::vector<double> chi2Of(const std::vector<SurfaceSighting>& sightings, const 
                            const LayeredGraph& graph) {
   std::vector<double> chi2;
   for (const SurfaceSighting& sighting : sightings) {
-    const PlaneObservationFactor observation =
-        observationOf(sighting.keyframe, WallId{}, observedBy(sighting, graph));
+    const PlaneObservationFactor observation = observationOf(sighting, WallId{}, graph);
     chi2.push_back(observation.chi2(graph.pose(sighting.keyframe), plane_map));
   }
   return chi2;
@@ -38,6 +38,15 @@ std::vector<SurfaceSighting> those(const std::vector<SurfaceSighting>& sightings
   return result;
 }
 
+/// Those that may leave a track: of what was let go of, only the track as a whole knows how far it
+/// was seen.
+std::vector<SurfaceSighting> movable(const std::vector<SurfaceSighting>& sightings) {
+  std::vector<SurfaceSighting> result;
+  std::copy_if(sightings.begin(), sightings.end(), std::back_inserter(result),
+               [](const SurfaceSighting& sighting) { return sighting.observed != nullptr; });
+  return result;
+}
+
 /// The sightings in front of the best cut between two groups, by where their centroids lie across
 /// the plane: the cut that leaves the least squares (Otsu).
 std::vector<bool> inFront(const std::vector<SurfaceSighting>& sightings, const Plane& plane_map,
@@ -45,7 +54,7 @@ std::vector<bool> inFront(const std::vector<SurfaceSighting>& sightings, const P
   std::vector<double> offsets_m;
   for (const SurfaceSighting& sighting : sightings) {
     const Eigen::Vector3d centroid_map =
-        graph.pose(sighting.keyframe) * observedBy(sighting, graph).centroid_base;
+        graph.pose(sighting.keyframe) * measuredBy(sighting, graph).centroid_base;
     offsets_m.push_back(plane_map.normal.dot(centroid_map) - plane_map.distance);
   }
   std::vector<double> sorted = offsets_m;
@@ -88,7 +97,8 @@ void WallLayer::release(LayeredGraph* graph) {
       if (!more) break;
       doubtful->way_sigma_m = 0.0;
       if (doubtful == sightings.begin()) continue;
-      number = split(number, {doubtful, sightings.end()}, graph);
+      const std::vector<SurfaceSighting> leaving = movable({doubtful, sightings.end()});
+      if (!leaving.empty()) number = split(number, leaving, graph);
     }
   }
   promote(graph);
@@ -102,7 +112,8 @@ bool WallLayer::splitTracks(LayeredGraph* graph) {
   }
   bool changed = false;
   for (const TrackNumber number : grown) {
-    const std::vector<SurfaceSighting> strangers = strangersIn(tracks_.at(number), *graph);
+    const std::vector<SurfaceSighting> strangers =
+        movable(strangersIn(tracks_.at(number), *graph));
     if (strangers.empty()) continue;
     changed = changed || tracks_.at(number).id;
     split(number, strangers, graph);
@@ -127,9 +138,11 @@ std::vector<SurfaceSighting> WallLayer::strangersIn(const WallTrack& track,
   if (pieces.size() > 1) {
     std::vector<bool> in_largest;
     for (const SurfaceSighting& sighting : all) {
-      const WallExtent seen = track.extent.drawn(graph.pose(sighting.keyframe) *
-                                                 observedBy(sighting, graph).extent_base);
-      in_largest.push_back(seen.sharedArea_m2(pieces.front()) > 0.0 || seen.empty());
+      const WallExtent seen = sighting.observed == nullptr
+                                  ? WallExtent()
+                                  : track.extent.drawn(graph.pose(sighting.keyframe) *
+                                                       sighting.observed->extent_base);
+      in_largest.push_back(seen.empty() || seen.overlaps(pieces.front()));
     }
     return those(all, in_largest, false);
   }

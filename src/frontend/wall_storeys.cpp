@@ -45,7 +45,7 @@ bool WallLayer::goOnInEachOther(const WallTrack& a, const WallTrack& b,
   if (!graph.contains(*a.floor) || !graph.contains(*b.floor)) return false;
   return a.box_map.intersects(b.box_map) &&
          isSameSurface(a.plane_map, a.extent.centre_map(), b.plane_map) &&
-         a.extent.sharedArea_m2(b.extent) > 0.0;
+         a.extent.overlaps(b.extent);
 }
 
 void WallLayer::cutAtGrounds(const LayeredGraph& graph) {

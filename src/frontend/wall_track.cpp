@@ -8,6 +8,18 @@
 #include "mrpt_sgraphs/factors/wall_pair.h"
 
 namespace mrpt_sgraphs {
+namespace {
+
+KeptExtent& keptWith(KeyframeId with, double cell_m, const LayeredGraph& graph, WallTrack* track) {
+  for (KeptExtent& kept : track->kept) {
+    if (kept.with == with) return kept;
+  }
+  track->kept.push_back(
+      {with, graph.pose(with), WallExtent(track->plane_map, track->anchor_map, cell_m)});
+  return track->kept.back();
+}
+
+}  // namespace
 
 void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track) {
   if (track->sightings.empty()) return;  // nothing is left to draw it from
@@ -15,7 +27,14 @@ void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track) {
   if (track->id) track->plane_map = graph.plane(*track->id);
   track->extent = WallExtent(track->plane_map, track->anchor_map, cell_m);
   for (const SurfaceSighting& sighting : track->sightings) {
-    track->extent.add(graph.pose(sighting.keyframe) * observedBy(sighting, graph).extent_base);
+    if (sighting.observed == nullptr) continue;
+    track->extent.add(graph.pose(sighting.keyframe) * sighting.observed->extent_base);
+  }
+  for (const KeptExtent& kept : track->kept) {
+    const Pose T_map_then = graph.contains(kept.with)
+                                ? graph.pose(kept.with) * kept.T_map_with.inverse()
+                                : Pose::Identity();
+    track->extent.add(kept.extent.moved(T_map_then));
   }
   track->box_map = track->extent.box_map();
   track->outline_map.reset();
@@ -26,11 +45,28 @@ void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track) {
 void extend(const SurfaceSighting& sighting, const LayeredGraph& graph, WallTrack* track) {
   addSighting(sighting, graph, track);
   const double area_m2 = track->extent.area_m2();
-  track->extent.add(graph.pose(sighting.keyframe) * observedBy(sighting, graph).extent_base);
+  track->extent.add(graph.pose(sighting.keyframe) * sighting.observed->extent_base);
   track->grown = true;
   if (track->extent.area_m2() == area_m2) return;  // nothing new of it
   track->box_map = track->extent.box_map();
   track->outline_map.reset();
+}
+
+void letGo(const std::set<KeyframeId>& keyframes, double cell_m, const LayeredGraph& graph,
+           WallTrack* track) {
+  for (SurfaceSighting& sighting : track->sightings) {
+    if (keyframes.count(sighting.keyframe) == 0 || sighting.observed == nullptr) continue;
+    if (sighting.factor) {
+      const auto& representative = graph.attributes(sighting.keyframe).representative;
+      const KeyframeId with = representative.value_or(sighting.keyframe);
+      KeptExtent& kept = keptWith(with, cell_m, graph, track);
+      const Pose T_then_base =
+          kept.T_map_with * graph.pose(with).inverse() * graph.pose(sighting.keyframe);
+      kept.extent.add(T_then_base * sighting.observed->extent_base);
+    }
+    letGo(&sighting);
+  }
+  dropErased(graph, &track->sightings);
 }
 
 bool isFree(const WallTrack& track, const LayeredGraph& graph) {

@@ -127,7 +127,8 @@ std::optional<SurfaceFit> WallLayer::mergeFit(const WallTrack& a, const WallTrac
     if (shared == b.sightings.end()) break;
     if (shared->keyframe != sighting.keyframe) continue;
     share_a_keyframe = true;
-    if (!is_same && !isCoplanarWithAll(b.sightings, sighting.keyframe, observedBy(sighting, graph), graph)) {
+    if (!is_same && !isCoplanarWithAll(b.sightings, sighting.keyframe, measuredBy(sighting, graph),
+                                       graph)) {
       return std::nullopt;
     }
   }
@@ -160,13 +161,16 @@ TrackNumber WallLayer::merge(TrackNumber a, TrackNumber b, LayeredGraph* graph) 
   WallTrack& stays = tracks_.at(a);
   WallTrack& goes = tracks_.at(b);
   erasePairsOf(b, graph);
-  if (goes.id) graph->eraseNode(*goes.id);
-  for (SurfaceSighting& sighting : goes.sightings) {
-    sighting.factor.reset();
-    if (stays.id) addObservation(*stays.id, config_.kernel_chi2, &sighting, graph);
+  if (goes.id) {  // a wall of the graph goes only for another
+    replaceSurface(*goes.id, *stays.id, config_.kernel_chi2, &goes.sightings, graph);
+  } else if (stays.id) {
+    for (SurfaceSighting& sighting : goes.sightings) {
+      addObservation(*stays.id, config_.kernel_chi2, &sighting, graph);
+    }
   }
   stays.sightings = mergedByKeyframe(stays.sightings, goes.sightings);
   stays.seen_at_m = std::max(stays.seen_at_m, goes.seen_at_m);
+  stays.kept.insert(stays.kept.end(), goes.kept.begin(), goes.kept.end());
   stays.see_through.add(goes.see_through);
   stays.is_furniture = stays.is_furniture && goes.is_furniture;
   stays.apart.insert(goes.apart.begin(), goes.apart.end());

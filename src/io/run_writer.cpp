@@ -38,11 +38,12 @@ void writeOptimizations(const std::vector<OptimizationSummary>& rows, std::ostre
 
 void writeScans(const std::vector<ScanReport>& rows, std::ostream& out) {
   out << "stamp,prefilter_ms,deskew_ms,register_ms,map_ms,select_ms,segment_ms,keyframe_ms,"
-         "rooms_ms,registered,keyframe\n";
+         "rooms_ms,rss_mib,registered,keyframe\n";
   for (const ScanReport& r : rows) {
     out << std::fixed << std::setprecision(6) << r.stamp_s << std::setprecision(3) << ','
         << r.prefilter_ms << ',' << r.deskew_ms << ',' << r.register_ms << ',' << r.map_ms << ','
         << r.select_ms << ',' << r.segment_ms << ',' << r.keyframe_ms << ',' << r.rooms_ms << ','
+        << r.rss_mib << ','
         << (r.registered ? 1 : 0) << ',' << (r.keyframe ? 1 : 0) << '\n';
   }
 }

@@ -104,7 +104,14 @@ void FreeSpace::mark(const Eigen::Vector3f& sensor, const Eigen::Vector3f& point
 
 void FreeSpace::weigh(const octomap::OcTreeKey& key, float delta) {
   constexpr bool kLazily = true;
-  const float now = tree_.updateNode(key, delta, kLazily)->getLogOdds();
+  // updateNode searches for it and then comes down to it a second time
+  octomap::OcTreeNode* leaf = tree_.search(key);
+  if (leaf != nullptr) {
+    tree_.updateNodeLogOdds(leaf, delta);
+  } else {
+    leaf = tree_.updateNode(key, delta, kLazily);
+  }
+  const float now = leaf->getLogOdds();
   const float before = now - delta;
   Column& column = columns_[{key[0] - kKeyOfZero, key[1] - kKeyOfZero}];
   if (before < 0.0F) --column.free;

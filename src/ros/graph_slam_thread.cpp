@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mrpt_sgraphs/geometry/cpu_time.h"
+#include "mrpt_sgraphs/geometry/resident_memory.h"
 #include "mrpt_sgraphs/slam/config_file.h"
 #include "mrpt_sgraphs/slam/graph_slam.h"
 #include "mrpt_sgraphs/slam/run_log.h"
@@ -53,6 +54,7 @@ void GraphSlamThread::addKeyframe(const Keyframe& keyframe, double segment_ms) {
       scan->keyframe = true;
       scan->segment_ms = segment_ms;
       scan->keyframe_ms = keyframe_ms;
+      scan->rss_mib = residentMemory_MiB();
     }
     tell(outcome.optimizations);
   });

@@ -81,12 +81,19 @@ struct LoopCloser::Candidate {
 
 void LoopCloser::describe(const Keyframes& keyframes) {
   for (std::size_t i = contexts_.size(); i < keyframes.size(); ++i) {
-    contexts_.emplace_back(*keyframes[i].cloud, levelRotation(keyframes[i]));
+    contexts_.emplace_back();
+    if (keyframes[i].cloud != nullptr) {
+      contexts_.back() =
+          std::make_unique<ScanContext>(*keyframes[i].cloud, levelRotation(keyframes[i]));
+    }
     const double step_m =
         i == 0 ? 0.0
                : (keyframes[i].T_odom_base.translation() -
                   keyframes[i - 1].T_odom_base.translation()).norm();
     path_m_.push_back(i == 0 ? 0.0 : path_m_.back() + step_m);
+  }
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    if (keyframes[i].cloud == nullptr) contexts_[i].reset();
   }
 }
 
@@ -97,6 +104,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates(
   const std::size_t newest = keyframes.size() - 1;
   std::vector<Candidate> near;
   for (std::size_t i = 0; i < newest && path_m_[newest] - path_m_[i] > config_.min_path_m; ++i) {
+    if (contexts_[i] == nullptr) continue;
     if (levels.areTwoStoreys(keyframes[i], keyframes[newest])) continue;
     Candidate candidate;
     candidate.index = i;
@@ -114,7 +122,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates(
             [](const auto& a, const auto& b) { return a.distance_m < b.distance_m; });
   std::vector<Candidate> chosen{near.front()};
   for (Candidate& candidate : near) {
-    const auto comparison = contexts_[candidate.index].compare(contexts_[newest]);
+    const auto comparison = contexts_[candidate.index]->compare(*contexts_[newest]);
     candidate.similarity = comparison.similarity;
     const Eigen::Matrix3d R_level_old = levelRotation(keyframes[candidate.index]);
     const Eigen::Matrix3d R_level_new = levelRotation(keyframes[newest]);
@@ -145,6 +153,7 @@ std::optional<LoopClosure> LoopCloser::verify(const Candidate& candidate,
   const std::size_t reach = static_cast<std::size_t>(config_.submap_keyframes / 2);
   const std::size_t from = candidate.index > reach ? candidate.index - reach : 0;
   for (std::size_t i = from; i <= candidate.index + reach && i + 1 < keyframes.size(); ++i) {
+    if (keyframes[i].cloud == nullptr) continue;
     const Pose T_old_other = T_old_map * keyframes[i].T_map_base;
     const Cloud& cloud = *keyframes[i].cloud;
     const Eigen::Vector3d viewpoint =
@@ -194,6 +203,7 @@ std::vector<LoopClosure> LoopCloser::find(const GraphSnapshot& graph) {
   const Keyframes& keyframes = graph.keyframes;
   if (!config_.enabled || keyframes.empty()) return {};
   describe(keyframes);
+  if (contexts_.back() == nullptr) return {};
   if (path_m_.back() - searched_at_m_ < config_.min_interval_m) return {};
   if (path_m_.back() < config_.min_path_m) return {};
   searched_at_m_ = path_m_.back();
@@ -211,9 +221,11 @@ std::vector<LoopClosure> LoopCloser::find(const GraphSnapshot& graph) {
 
 std::optional<LoopClosure> LoopCloser::confirm(const GraphSnapshot& graph, KeyframeId old,
                                                const Pose& T_old_newest) const {
-  if (!config_.enabled) return std::nullopt;
+  if (!config_.enabled || graph.keyframes.empty()) return std::nullopt;
+  if (graph.keyframes.back().cloud == nullptr) return std::nullopt;
   for (std::size_t k = 0; k + 1 < graph.keyframes.size(); ++k) {
     if (graph.keyframes[k].id != old) continue;
+    if (graph.keyframes[k].cloud == nullptr) return std::nullopt;
     Candidate candidate;
     candidate.index = k;
     candidate.T_old_new_guess = T_old_newest;

@@ -4,6 +4,7 @@
 #include "mrpt_sgraphs/semantics/room_matching.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -48,14 +49,15 @@ class Likeness {
     }
   }
 
-  double of(RoomId id, std::size_t k) const {
+  double byKeyframes(RoomId id, std::size_t k) const {
     const auto shared = shared_.find({id, k});
-    double likeness = 0.0;
-    if (shared != shared_.end()) likeness += shared->second / keyframes_.at(id);
+    return shared == shared_.end() ? 0.0 : shared->second / keyframes_.at(id);
+  }
+
+  double byGround(RoomId id, std::size_t k) const {
     const RoomAttributes& room = graph_.attributes(id);
     const bool same_floor = !room.floor || !rooms_[k].floor || *room.floor == *rooms_[k].floor;
-    if (same_floor) likeness += coveredShare(room.extent_map, outlines_map_[k]);
-    return likeness;
+    return same_floor ? coveredShare(room.extent_map, outlines_map_[k]) : 0.0;
   }
 
  private:
@@ -65,6 +67,22 @@ class Likeness {
   std::map<std::pair<RoomId, std::size_t>, double> shared_;  ///< Keyframes.
   std::map<RoomId, double> keyframes_;
 };
+
+/// Which of the detected rooms the graph's room is most like, and how much; of as many the first.
+std::pair<std::size_t, double> mostAlike(RoomId id, std::size_t rooms, const Likeness& likeness) {
+  std::vector<std::pair<double, std::size_t>> by_keyframes;
+  for (std::size_t k = 0; k < rooms; ++k) by_keyframes.emplace_back(likeness.byKeyframes(id, k), k);
+  std::stable_sort(by_keyframes.begin(), by_keyframes.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::pair<std::size_t, double> best{0, 0.0};
+  for (const auto& [share, k] : by_keyframes) {
+    if (share + 1.0 < best.second) break;  // not with all of its ground, which takes long to compare
+    const double value = share + likeness.byGround(id, k);
+    const bool is_as_good = value > 0.0 && value == best.second && k < best.first;
+    if (value > best.second || is_as_good) best = {k, value};
+  }
+  return best;
+}
 
 }  // namespace
 
@@ -91,11 +109,7 @@ std::vector<std::optional<RoomId>> matchRooms(const std::vector<DetectedRoom>& r
   std::map<RoomId, std::pair<std::size_t, double>> part_of;
   for (uint32_t slot = 0; slot < graph.size(Layer::kRoom); ++slot) {
     const RoomId id{graph.nodeAt({Layer::kRoom, slot}).value};
-    std::pair<std::size_t, double> best{0, 0.0};
-    for (std::size_t k = 0; k < rooms.size(); ++k) {
-      const double value = likeness.of(id, k);
-      if (value > best.second) best = {k, value};
-    }
+    const auto best = mostAlike(id, rooms.size(), likeness);
     if (best.second >= kAtLeast) part_of[id] = best;
   }
   // in the order of their ids: the oldest that surely is it, else the one that most likely is

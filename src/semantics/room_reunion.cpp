@@ -80,16 +80,18 @@ bool haveTheSameNeighbours(const RoomNode& older, const RoomNode& younger,
   return one;
 }
 
-/// The keyframe of a room that is the nearest to a place.
+/// The keyframe of a room that is the nearest to a place, of those with a cloud if there are any.
 std::optional<std::size_t> nearestOf(RoomId room, const Eigen::Vector3d& place_map,
                                      const GraphSnapshot& graph) {
   std::optional<std::size_t> nearest;
-  double least_m = std::numeric_limits<double>::infinity();
+  std::pair<bool, double> least{true, std::numeric_limits<double>::infinity()};
   for (std::size_t k = 0; k < graph.keyframes.size(); ++k) {
-    if (graph.keyframes[k].room != room) continue;
-    const double distance_m = (graph.keyframes[k].T_map_base.translation() - place_map).norm();
-    if (distance_m >= least_m) continue;
-    least_m = distance_m;
+    const KeyframeNode& keyframe = graph.keyframes[k];
+    if (keyframe.room != room) continue;
+    const double distance_m = (keyframe.T_map_base.translation() - place_map).norm();
+    const std::pair<bool, double> rank{keyframe.cloud == nullptr, distance_m};
+    if (rank >= least) continue;
+    least = rank;
     nearest = k;
   }
   return nearest;

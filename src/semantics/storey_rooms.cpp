@@ -109,8 +109,8 @@ bool StoreyRooms::integrate(const std::vector<const KeyframeNode*>& keyframes,
   bool changed = false;
   std::set<KeyframeId> present;
   for (const KeyframeNode* keyframe : keyframes) {
+    if (keyframe->cloud == nullptr) continue;  // what it has seen goes with its cloud
     present.insert(keyframe->id);
-    if (keyframe->cloud == nullptr) continue;
     const Pose T_floor_base = T_floor_map * keyframe->T_map_base;
     const auto known = integrated_.find(keyframe->id);
     if (known != integrated_.end()) {

@@ -20,7 +20,8 @@ class StoreyRooms {
   StoreyRooms(const RoomDetectorConfig& config, std::optional<FloorId> floor)
       : config_(config), floor_(floor), space_(config.free_space) {}
 
-  /// Takes into the free space what is new or has moved.
+  /// Takes into the free space what is new or has moved, and out of it what is gone: keyframes, or
+  /// their clouds.
   /// @param T_floor_map  z is up, and zero on the ground.
   /// @return Whether anything was, or had.
   bool integrate(const std::vector<const KeyframeNode*>& keyframes, const Pose& T_floor_map);

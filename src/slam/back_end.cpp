@@ -4,6 +4,7 @@
 #include "mrpt_sgraphs/slam/back_end.h"
 
 #include "mrpt_sgraphs/geometry/cpu_time.h"
+#include "mrpt_sgraphs/geometry/resident_memory.h"
 #include "mrpt_sgraphs/slam/config_file.h"
 
 namespace mrpt_sgraphs {
@@ -32,6 +33,7 @@ void BackEnd::addKeyframe(const Keyframe& keyframe, double segment_ms) {
   report->segment_ms = segment_ms;
   report->keyframe_ms = keyframe_ms;
   report->rooms_ms = rooms_ms;
+  report->rss_mib = residentMemory_MiB();
 }
 
 RunRecord BackEnd::record() {

@@ -30,13 +30,15 @@ inline bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// A table with its columns of measured times emptied.
+/// A table with its columns of measured times and memory emptied.
 inline std::vector<std::vector<std::string>> withoutTimes(const std::string& csv) {
   std::vector<std::vector<std::string>> rows;
   for (const std::string& line : linesOf(csv)) {
     rows.push_back(cellsOf(line));
     for (std::size_t k = 0; k < rows.back().size() && k < rows.front().size(); ++k) {
-      if (endsWith(rows.front()[k], "_ms") && rows.size() > 1) rows.back()[k].clear();
+      const std::string& column = rows.front()[k];
+      const bool measured = endsWith(column, "_ms") || column == "rss_mib";
+      if (measured && rows.size() > 1) rows.back()[k].clear();
     }
   }
   return rows;

@@ -212,6 +212,33 @@ TEST_F(GroundLayerTest, TwoLevelsThatAreOneBecomeTheOlder) {
   EXPECT_FALSE(layer_.merge(FloorId{0}, FloorId{0}, &graph_));
 }
 
+/// Two levels, the planes of whose keyframes are gone: what they measured is in their factors.
+TEST_F(GroundLayerTest, LevelsWithoutPlanesAreMergedAndFoundAgain) {
+  walkOn(0.0, 6);
+  for (int k = 0; k < 6; ++k) step(kSensorHeight_m, {}, Pose(Eigen::Translation3d(0.0, 0.0, 0.05)));
+  walkOn(0.0, 6);
+  ASSERT_EQ(graph_.size(Layer::kFloor), 2U);
+  std::vector<KeyframeId> all;
+  std::vector<std::weak_ptr<const ObservedPlanes>> planes;
+  for (std::size_t k = 0; k < truth_.size(); ++k) {
+    all.push_back(KeyframeId{k});
+    KeyframeAttributes attributes = graph_.attributes(all.back());
+    planes.push_back(attributes.planes);
+    attributes.planes.reset();
+    graph_.setAttributes(all.back(), attributes);
+  }
+  layer_.letPlanesGo(all);
+  graph_.snapshot();  // the one before held them, too
+  for (const auto& gone : planes) EXPECT_TRUE(gone.expired());
+  ASSERT_TRUE(layer_.merge(FloorId{0}, FloorId{1}, &graph_));
+  EXPECT_EQ(graph_.sightingsOf(FloorId{0}).size(), 12U);
+  optimizeSelection(selectAll(graph_), OptimizerConfig(), &optimizer_, &graph_);
+  EXPECT_NEAR(graph_.pose(KeyframeId{17}).translation().z(), kSensorHeight_m, 0.03);
+  walkOn(0.0, 3);
+  EXPECT_EQ(graph_.size(Layer::kFloor), 1U);
+  EXPECT_EQ(floorOf(20), FloorId{0});
+}
+
 /// A map that was begun tilted.
 TEST_F(GroundLayerTest, ATiltedStartHasItsLevelToo) {
   constexpr double kTilt_rad = 0.08;

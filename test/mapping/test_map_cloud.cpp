@@ -33,6 +33,12 @@ TEST(MapCloud, KeepsOnePointAVoxelOfWhatBothSee) {
   EXPECT_EQ(mapCloud(twoViews(), 0.0)->size(), 200U) << "no resolution: every point";
 }
 
+TEST(MapCloud, KeyframesWithoutACloudAddNothing) {
+  GraphSnapshot graph = twoViews();
+  graph.keyframes.edit(0).cloud.reset();
+  EXPECT_EQ(mapCloud(graph, 0.0)->size(), 100U);
+}
+
 TEST(MapCloud, FollowsThePoses) {
   GraphSnapshot graph = twoViews();
   graph.keyframes.pop_back();

@@ -74,6 +74,36 @@ TEST_F(LoopCloserTest, FindsReturnsAndMeasuresThem) {
   }
 }
 
+/// Clouds that were let go of are neither candidates nor parts of what is registered against.
+TEST_F(LoopCloserTest, FindsReturnsToKeyframesThatHaveKeptTheirClouds) {
+  const auto walk = round();
+  for (const std::size_t every : {2U, 1U}) {
+    LoopCloser closer{LoopCloserConfig{}};
+    LayeredGraph graph;
+    std::vector<LoopClosure> loops;
+    for (std::size_t k = 0; k < walk.size(); ++k) {
+      add(walk[k].keyframe, &graph);
+      if (k > 0 && k % every == 0) {
+        const KeyframeId last{k - 1};
+        KeyframeAttributes attributes = graph.attributes(last);
+        attributes.cloud.reset();
+        graph.setAttributes(last, attributes);
+      }
+      for (const LoopClosure& loop : closer.find(*graph.snapshot())) {
+        EXPECT_NE(graph.attributes(loop.from).cloud, nullptr);
+        const Pose T_from_to =
+            walk[loop.from.value].T_map_base.inverse() * walk[loop.to.value].T_map_base;
+        EXPECT_LT(local(T_from_to, loop.T_from_to).head<3>().norm(), 0.04);
+        loops.push_back(loop);
+      }
+      EXPECT_FALSE(closer.confirm(*graph.snapshot(), KeyframeId{every == 1 ? 0U : 1U},
+                                  Pose::Identity()))
+          << "no cloud, or the newest itself";
+    }
+    EXPECT_EQ(loops.empty(), every == 1) << "of all but the newest nothing is left";
+  }
+}
+
 TEST_F(LoopCloserTest, LeavesNeighboursAlone) {
   const auto walk = round();
   LoopCloserConfig config;

@@ -62,6 +62,33 @@ TEST(RoomDetector, FindsRoomsAndTheDoorBetweenThem) {
       << "the one in the door is in neither";
 }
 
+/// What every second keyframe has seen the others have seen, too.
+TEST(RoomDetector, RoomsStayWhatTheyAreWhenCloudsAreLetGo) {
+  PlanLab lab;
+  lab.addFloor(0.0);
+  addTwoRooms(&lab);
+  lab.walk({1, 2}, {9, 2});
+  RoomDetector detector{RoomDetectorConfig{}};
+  const RoomDetection before = detector.detect(*lab.graph.snapshot());
+  std::vector<std::weak_ptr<const Cloud>> clouds;
+  for (std::size_t k = 1; k < lab.graph.size(Layer::kKeyframe); k += 2) {
+    KeyframeAttributes attributes = lab.graph.attributes(KeyframeId{k});
+    clouds.emplace_back(attributes.cloud);
+    attributes.cloud.reset();
+    lab.graph.setAttributes(KeyframeId{k}, attributes);
+  }
+  const RoomDetection after = detector.detect(*lab.graph.snapshot());
+  for (const auto& cloud : clouds) EXPECT_TRUE(cloud.expired()) << "the detector keeps it";
+  ASSERT_EQ(after.rooms.size(), before.rooms.size());
+  for (std::size_t k = 0; k < before.rooms.size(); ++k) {
+    EXPECT_EQ(after.rooms[k].walls.size(), before.rooms[k].walls.size());
+    EXPECT_EQ(after.rooms[k].keyframes, before.rooms[k].keyframes);
+    EXPECT_EQ(after.rooms[k].doorways.size(), before.rooms[k].doorways.size());
+    EXPECT_NEAR(signedArea(lab.outlineOf(after.rooms[k])),
+                signedArea(lab.outlineOf(before.rooms[k])), 0.1);
+  }
+}
+
 TEST(RoomDetector, AxesPointAlongTheWallsNormals) {
   PlanLab lab;
   lab.addFloor(0.0);

@@ -97,9 +97,28 @@ TEST_P(ShippedBuilding, StartsAndEndsAtRest) {
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedBuilding,
                          ::testing::Values("small", "construction_c1f1", "construction_c1f2",
-                                           "office", "split_level", "two_stairs", "two_storey",
+                                           "office", "campaign", "split_level", "two_stairs", "two_storey",
                                            "skewed"),
                          [](const auto& info) { return std::string(info.param); });
+
+TEST(Tour, IsWalkedAsOftenAsAsked) {
+  const Building building = test::shipped("small");
+  const std::size_t first = building.tour.front().room;
+  int entered = 0;
+  bool was_in = true;
+  const Trajectory once = walkTour(building, robotNamed("legged"));
+  const Trajectory thrice = walkTour(withTours(building, 3), robotNamed("legged"));
+  for (double t = 0.0; t <= thrice.duration_s(); t += kStep_s) {
+    const bool is_in =
+        building.roomAt(0, thrice.T_map_base(t).translation().head<2>()) == std::optional(first);
+    if (is_in && !was_in) ++entered;
+    was_in = is_in;
+  }
+  EXPECT_GE(entered, 3);
+  EXPECT_NEAR(thrice.duration_s(), 3.0 * once.duration_s(), 0.1 * once.duration_s());
+  const Pose T_start_end = once.T_map_base(0.0).inverse() * thrice.T_map_base(thrice.duration_s());
+  EXPECT_LT(T_start_end.translation().norm(), 3.0);
+}
 
 TEST(Tour, GoesStraightThroughTheMiddleOfTheDoor) {
   const Building building = test::buildingFrom(test::kTwoRooms);

@@ -110,11 +110,12 @@ std::string complaintAbout(const std::vector<const char*>& arguments) {
 TEST(Options, AreRead) {
   const Options options =
       parse({"--building", "b.yaml", "--sensor", "os1_64", "--seed", "0", "--out", "d", "--gait",
-             "wheeled", "--duration", "12.5", "--rotate-deg", "-45"});
+             "wheeled", "--duration", "12.5", "--rotate-deg", "-45", "--tours", "3"});
   EXPECT_EQ(options.building_file, "b.yaml");
   EXPECT_EQ(options.simulation.lidar.rings, 64);
   EXPECT_EQ(options.simulation.robot.name, "wheeled");
   EXPECT_EQ(options.simulation.max_duration_s, 12.5);
+  EXPECT_EQ(options.tours, 3U);
   EXPECT_NEAR(options.simulation.turn_rad, -0.25 * M_PI, 1e-12);
   EXPECT_TRUE(parse({"--building", "--help"}).help);
 }
@@ -133,6 +134,8 @@ TEST(Options, WhatIsWrongIsNamed) {
   EXPECT_NE(with("--seed", "2").find("twice"), std::string::npos);
   EXPECT_NE(with("--duration", "-1").find("--duration"), std::string::npos);
   EXPECT_NE(with("--duration", "3s").find("'3s'"), std::string::npos);
+  EXPECT_NE(with("--tours", "0").find("--tours"), std::string::npos);
+  EXPECT_NE(with("--tours", "2.5").find("'2.5'"), std::string::npos);
   EXPECT_NE(with("--rotate-deg", "east").find("'east'"), std::string::npos);
   EXPECT_NE(with("--gait", "flying").find("legged"), std::string::npos);
   EXPECT_NE(complaintAbout({"--building", "b"}).find("--out"), std::string::npos);

@@ -76,6 +76,7 @@ TEST_F(PipelineInABuilding, RecordsEveryScan) {
                                  report.keyframe_ms, report.rooms_ms}) {
       EXPECT_GE(time_ms, 0.0);
     }
+    EXPECT_EQ(report.rss_mib > 0.0, report.keyframe);
     keyframes += report.keyframe ? 1 : 0;
   }
   EXPECT_EQ(keyframes, record_->graph->keyframes.size());

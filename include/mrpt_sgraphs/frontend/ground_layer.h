@@ -25,6 +25,9 @@ class GroundLayer {
   /// @return Whether it was done: not if one of them was not made here, or is gone.
   bool merge(FloorId stays, FloorId goes, LayeredGraph* graph);
 
+  /// To be called when the planes of dropped keyframes go: nobody keeps them here any more.
+  void letPlanesGo(const std::vector<KeyframeId>& keyframes);
+
  private:
   struct Level : SurfaceTrack {
     std::optional<FloorId> id;  ///< None on probation.
@@ -46,6 +49,7 @@ class GroundLayer {
   bool isWideEnough(const Level& level, const LayeredGraph& graph) const;
   void refreshPlanes(const LayeredGraph& graph);
   void addFactor(SurfaceSighting* sighting, FloorId floor, LayeredGraph* graph) const;
+  static void setFloor(KeyframeId keyframe, FloorId floor, LayeredGraph* graph);
   void updateFloor(const Level& level, LayeredGraph* graph) const;
 
   GroundLayerConfig config_;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,20 @@ struct SurfaceSighting {
   std::size_t plane = 0;           ///< Among the keyframe's planes.
   std::optional<FactorId> factor;  ///< None while the surface is on probation.
   double way_sigma_m = 0.0;        ///< How uncertain the way was over which it was associated.
+  /// What was seen, together with the keyframe's other planes. Null where that was let go of: plane
+  /// and covariance are in the factor then.
+  std::shared_ptr<const ObservedPlane> observed;
+  Eigen::Vector3d centroid_base = Eigen::Vector3d::Zero();  ///< Where `observed` is null.
+};
+
+SurfaceSighting sightingOf(KeyframeId keyframe, const ObservedPlanesConstPtr& planes,
+                           std::size_t plane, double way_sigma_m);
+
+/// What a sighting says of its surface, but for the outline.
+struct MeasuredPlane {
+  Plane plane_base;
+  Eigen::Matrix3d covariance;
+  Eigen::Vector3d centroid_base;
 };
 
 /// A plane with its distance from another origin: `n . (p - origin) = d`.
@@ -33,21 +48,29 @@ int keyframesOf(const std::vector<SurfaceSighting>& sightings);
 std::vector<SurfaceSighting> mergedByKeyframe(const std::vector<SurfaceSighting>& a,
                                               const std::vector<SurfaceSighting>& b);
 
-/// Forgets sightings that the graph has lost, by keyframe or factor.
+/// Forgets sightings that the graph has lost, by keyframe or factor, and those of which nothing is
+/// left.
 void dropErased(const LayeredGraph& graph, std::vector<SurfaceSighting>* sightings);
 
-const ObservedPlane& observedBy(const SurfaceSighting& sighting, const LayeredGraph& graph);
+/// Lets go of what was seen: without a factor that knows of it, nothing is left then.
+void letGo(SurfaceSighting* sighting);
+
+MeasuredPlane measuredBy(const SurfaceSighting& sighting, const LayeredGraph& graph);
 
 /// Whether it is sound and has an outline.
 bool canBeSighted(const ObservedPlane& plane);
 
-PlaneObservationFactor observationOf(KeyframeId keyframe, NodeId surface,
-                                     const ObservedPlane& plane, const RobustKernel& kernel = {});
+PlaneObservationFactor observationOf(const SurfaceSighting& sighting, NodeId surface,
+                                     const LayeredGraph& graph, const RobustKernel& kernel = {});
 
 /// Ties the keyframe to a surface of the graph by what it sees of it, which loses weight beyond
 /// `kernel_chi2`. The sighting knows its factor then.
 void addObservation(NodeId surface, double kernel_chi2, SurfaceSighting* sighting,
                     LayeredGraph* graph);
+
+/// Erases a surface, and ties those who saw it to the one that takes its place.
+void replaceSurface(NodeId goes, NodeId stays, double kernel_chi2,
+                    std::vector<SurfaceSighting>* sightings, LayeredGraph* graph);
 
 /// What sightings say on a surface while the keyframes stay where they are.
 ObservationSum summed(const std::vector<SurfaceSighting>& sightings, const Plane& near_map,

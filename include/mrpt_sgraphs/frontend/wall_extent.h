@@ -26,6 +26,9 @@ class WallExtent {
   /// Another on the same grid, of one surface alone.
   WallExtent drawn(const PlanarExtent& extent_map) const;
 
+  /// With its grid.
+  WallExtent moved(const Pose& T_map_before) const;
+
   void add(const PlanarExtent& extent_map) { add(drawn(extent_map)); }
   void add(const WallExtent& other);
 
@@ -50,6 +53,7 @@ class WallExtent {
   CellSet cellsOn(const PlaneFrame& frame, double cell_m) const;
 
   double sharedArea_m2(const WallExtent& other) const;
+  bool overlaps(const WallExtent& other) const { return sharedCells(other, 1) > 0; }
 
   /// The way along the wall from one to the other, at a height at which both were seen: surfaces
   /// above one another have none. 0 where they overlap.
@@ -66,6 +70,8 @@ class WallExtent {
 
  private:
   CellSet onGridOf(const WallExtent& other) const;
+  /// @param enough  Are counted no further.
+  std::size_t sharedCells(const WallExtent& other, std::size_t enough) const;
   std::vector<Eigen::Vector3d> corners_map() const;
 
   PlaneFrame frame_;

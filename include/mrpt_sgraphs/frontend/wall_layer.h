@@ -45,6 +45,10 @@ class WallLayer {
   /// what was taken apart comes together again where it fits.
   bool maintainAfterLoop(const WayToNewest& way, LayeredGraph* graph);
 
+  /// To be called when the planes of dropped keyframes go: nobody keeps them here any more. The
+  /// walls that they see stay what they are, with their extents.
+  void letPlanesGo(const std::vector<KeyframeId>& keyframes, const LayeredGraph& graph);
+
   const std::map<TrackNumber, WallTrack>& tracks() const { return tracks_; }
 
  private:
@@ -84,7 +88,7 @@ class WallLayer {
   std::optional<SurfaceFit> fitTo(const WallTrack& track, const ObservedPlane& seen,
                                   const WayToNewest& way, const LayeredGraph& graph) const;
   bool isCoplanarWithAll(const std::vector<SurfaceSighting>& sightings, KeyframeId keyframe,
-                         const ObservedPlane& plane, const LayeredGraph& graph) const;
+                         const MeasuredPlane& plane, const LayeredGraph& graph) const;
   TrackNumber begin(std::vector<SurfaceSighting> sightings, const Plane& plane_map,
                     double seen_at_m, const LayeredGraph& graph);
   bool promote(LayeredGraph* graph);

@@ -24,10 +24,18 @@ struct StoreyCut {
   double top_m = std::numeric_limits<double>::infinity();
 };
 
+/// How far keyframes saw a wall whose planes were let go of: nobody can draw it again.
+struct KeptExtent {
+  KeyframeId with;                          ///< That it moves with,
+  Pose T_map_with = Pose::Identity();       ///< and where that was when it was drawn.
+  WallExtent extent;
+};
+
 /// One side of a wall, from its first sighting on: on probation, then a node of the graph.
 struct WallTrack : SurfaceTrack {
   std::optional<WallId> id;  ///< None on probation.
   WallExtent extent;
+  std::vector<KeptExtent> kept;  ///< One for each that they move with; is in the extent, too.
   Eigen::AlignedBox3d box_map;  ///< Around the extent.
   double seen_at_m = 0.0;       ///< The way that the robot had gone at the last sighting.
   SeeThrough see_through;
@@ -59,6 +67,11 @@ void redraw(double cell_m, const LayeredGraph& graph, WallTrack* track);
 
 /// One more sighting, and the extent with it.
 void extend(const SurfaceSighting& sighting, const LayeredGraph& graph, WallTrack* track);
+
+/// Lets go of what dropped keyframes have seen, but for how far they saw the wall: that moves with
+/// those that stand for them. Sightings of which nothing is left are forgotten.
+void letGo(const std::set<KeyframeId>& keyframes, double cell_m, const LayeredGraph& graph,
+           WallTrack* track);
 
 /// Nothing but sightings, condensed or not, pairs and rooms ties the track's wall to the rest: they
 /// are found again when it has become another.

@@ -23,6 +23,7 @@ struct ScanReport {
   double segment_ms = 0.0;   ///< the planes of a keyframe
   double keyframe_ms = 0.0;  ///< The back end's work for it but for:
   double rooms_ms = 0.0;     ///< free space and rooms.
+  double rss_mib = 0.0;      ///< Resident memory after a keyframe; 0 where the system does not tell.
   bool registered = false;
   bool keyframe = false;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -77,6 +78,7 @@ class LoopCloser {
   explicit LoopCloser(const LoopCloserConfig& config) : config_(config) {}
 
   /// @param graph  The keyframes of the last call and those that came after them, the newest last.
+  ///               Old ones whose clouds were let go of are no candidates any more.
   /// @return The loops that passed, to be added to the graph.
   std::vector<LoopClosure> find(const GraphSnapshot& graph);
 
@@ -99,7 +101,7 @@ class LoopCloser {
                                     const Matrix6& uncertainty) const;
 
   LoopCloserConfig config_;
-  std::vector<ScanContext> contexts_;
+  std::vector<std::unique_ptr<const ScanContext>> contexts_;  ///< Null where the cloud is gone.
   std::vector<double> path_m_;  ///< Way from the first keyframe to each.
   double searched_at_m_ = -1e9;
 };

@@ -19,7 +19,8 @@ class RoomDetector {
   ~RoomDetector();
 
   /// Takes what is new or has moved since the last call into the free space, and looks for rooms.
-  /// @param graph  Its keyframes need their clouds and floors.
+  /// @param graph  Its keyframes need their floors, and those whose rays are to count their clouds:
+  ///               one whose cloud was let go of is still in its room.
   RoomDetection detect(const GraphSnapshot& graph);
 
  private:
