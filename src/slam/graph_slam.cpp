@@ -12,6 +12,7 @@
 #include "mrpt_sgraphs/frontend/wall_layer.h"
 #include "mrpt_sgraphs/hierarchy/condense.h"
 #include "mrpt_sgraphs/hierarchy/transfer.h"
+#include "mrpt_sgraphs/mapping/redundant_keyframes.h"
 #include "mrpt_sgraphs/semantics/floor_layer.h"
 #include "mrpt_sgraphs/semantics/room_layer.h"
 #include "mrpt_sgraphs/semantics/room_reunion.h"
@@ -35,6 +36,7 @@ struct GraphSlam::State {
   std::optional<FloorId> storeyOf(const LoopClosure& loop) const;
   void optimize(Stage stage, std::vector<OptimizationSummary>* optimizations);
   void settle(Stage stage, std::vector<OptimizationSummary>* optimizations);
+  void compress(bool changed, std::vector<OptimizationSummary>* optimizations);
 
   GraphSlamConfig config;
   LayeredGraph graph;
@@ -152,6 +154,19 @@ void GraphSlam::State::settle(Stage stage, std::vector<OptimizationSummary>* opt
   }
 }
 
+void GraphSlam::State::compress(bool changed, std::vector<OptimizationSummary>* optimizations) {
+  const std::size_t before = optimizations->size();
+  stages->compress(changed, &graph, optimizations);
+  if (optimizations->size() == before || config.hierarchy.cloud_spacing_m == 0.0) return;
+  for (const KeyframeId id :
+       redundantKeyframes(*graph.snapshot(), config.hierarchy.cloud_spacing_m)) {
+    KeyframeAttributes attributes = graph.attributes(id);
+    attributes.cloud.reset();
+    attributes.planes.reset();
+    graph.setAttributes(id, attributes);
+  }
+}
+
 GraphSlam::GraphSlam(const GraphSlamConfig& config) : state_(std::make_unique<State>(config)) {}
 
 GraphSlam::~GraphSlam() = default;
@@ -199,7 +214,7 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
     using Stage = State::Stage;
     state_->settle(has_loops ? Stage::kAfterLoop : Stage::kLocal, &outcome.optimizations);
   }
-  state_->stages->compress(false, &graph, &outcome.optimizations);
+  state_->compress(false, &outcome.optimizations);
   return outcome;
 }
 
@@ -218,7 +233,7 @@ std::vector<OptimizationSummary> GraphSlam::setRooms(const RoomDetection& detect
   const bool can_wait = state_->stages->compresses() && state_->rooms.grown().empty();
   if (changed && !can_wait) state_->settle(State::Stage::kRooms, &optimizations);
   if (state_->reuniteRooms()) state_->settle(State::Stage::kAfterLoop, &optimizations);
-  state_->stages->compress(changed, &state_->graph, &optimizations);
+  state_->compress(changed, &optimizations);
   return optimizations;
 }
 
