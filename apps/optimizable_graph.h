@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "mrpt_sgraphs/hierarchy/whole_graph.h"
 #include "mrpt_sgraphs/solver/optimizer.h"
 
 namespace mrpt_sgraphs {
@@ -36,12 +37,15 @@ class OptimizableGraph {
   /// By an optimizer that knows nothing yet.
   virtual OptimizerReport optimize(const OptimizerConfig& config) = 0;
 
+  /// What the hierarchy did in the last optimization; null in mode baseline.
+  virtual const WholeGraphReport* stages() const { return nullptr; }
+
   /// Writes the estimate in the format of the file.
   /// @throws std::runtime_error naming the file if it cannot be written.
   virtual void write(const std::string& path) const = 0;
 };
 
-/// By the end of the file's name: .g2o, .sg or .json.
+/// To be optimized as a whole. By the end of the file's name: .g2o, .sg or .json.
 /// @throws std::runtime_error naming the file and what is wrong with it.
 std::unique_ptr<OptimizableGraph> readOptimizableGraph(const std::string& path);
 

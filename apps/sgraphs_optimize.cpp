@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "compressed_graph.h"
 #include "mrpt_sgraphs/io/statistics.h"
 #include "optimizable_graph.h"
 #include "peak_memory.h"
@@ -35,6 +36,7 @@ struct Options {
   std::string init = "file";
   std::string out;
   int repeat = 1;
+  bool compare = false;
   OptimizerConfig optimizer;
 };
 
@@ -57,12 +59,7 @@ void check(const Options& options) {
   if (options.init != "file" && options.init != "chordal") {
     throw po::error("--init must be 'file' or 'chordal', not '" + options.init + "'");
   }
-  if (options.mode == "paper" || options.mode == "condensed") {
-    throw std::runtime_error(
-        "--mode " + options.mode +
-        " comes with a later version; this one has 'baseline', the whole graph");
-  }
-  if (options.mode != "baseline") {
+  if (options.mode != "baseline" && options.mode != "paper" && options.mode != "condensed") {
     throw po::error("--mode must be 'baseline', 'paper' or 'condensed', not '" + options.mode +
                     "'");
   }
@@ -79,7 +76,8 @@ std::optional<Options> parse(int argc, char** argv) {
       "Options");
   auto add = description.add_options();
   add("mode", po::value(&options.mode)->default_value(options.mode),
-      "'baseline': the whole graph; 'paper' and 'condensed' come with a later version");
+      "'baseline': the whole graph; 'condensed': by the hierarchy, with what rooms leave of their "
+      "keyframes; 'paper': with what the paper leaves of them");
   add("threads", po::value(&options.optimizer.threads)->default_value(options.optimizer.threads),
       "the result does not depend on it");
   add("repeat", po::value(&options.repeat)->default_value(options.repeat),
@@ -89,6 +87,8 @@ std::optional<Options> parse(int argc, char** argv) {
       "stop after so many");
   add("init", po::value(&options.init)->default_value(options.init),
       "values to begin with: 'file', or 'chordal' from the relative poses alone");
+  add("compare", po::bool_switch(&options.compare),
+      "optimizes the whole graph as well, to compare with");
   add("out", po::value(&options.out), "file for the estimate, in the format of FILE");
   add("help,h", "shows this");
   po::options_description all;
@@ -124,13 +124,56 @@ struct Measured {
   OptimizerReport report;  ///< Of the last repeat; they are all the same but for the times.
   double cpu_s = 0.0;      ///< Medians over the repeats.
   double wall_s = 0.0;
+  Json hierarchy;          ///< Sizes and, again medians, times of its stages; null without.
 };
+
+/// Sizes, and CPU of the stages [s]. "first_global": that of the first round alone.
+Json toJson(const WholeGraphReport& report) {
+  constexpr double kOften = 0.95;
+  constexpr double kMilli = 1e-3;
+  return {{"rounds", report.rounds},
+          {"keyframes_dropped", report.dropped},
+          {"keyframes_left", report.active},
+          {"stand_ins", report.condensed},
+          {"factors", report.global.factors},
+          {"free_tangents", report.global.free_tangents},
+          {"chi2", report.condensed_cost},
+          {"condense",
+           {{"visits", report.visit_ms.size()},
+            {"median_ms", quantile(report.visit_ms, kMedian)},
+            {"p95_ms", quantile(report.visit_ms, kOften)}}},
+          {"cpu_s",
+           {{"plan", kMilli * report.plan_ms},
+            {"room_local", kMilli * report.room_local_ms},
+            {"condense", kMilli * report.condense_ms},
+            {"global", kMilli * report.global_ms},
+            {"first_global", kMilli * report.first_global_ms},
+            {"resolve", kMilli * report.resolve_ms}}}};
+}
+
+/// The last of them, with the median of each of their times.
+Json medians(const std::vector<Json>& reports) {
+  if (reports.empty()) return nullptr;
+  Json median = reports.back();
+  for (const char* const place : {"/cpu_s", "/condense"}) {
+    for (auto& [name, value] : median[Json::json_pointer(place)].items()) {
+      if (!value.is_number_float()) continue;
+      std::vector<double> values;
+      for (const Json& report : reports) {
+        values.push_back(report.at(Json::json_pointer(place)).at(name).get<double>());
+      }
+      value = quantile(values, kMedian);
+    }
+  }
+  return median;
+}
 
 /// Optimizes from the same values as often as asked for; the result of the last is left.
 Measured optimize(const Options& options, OptimizableGraph* graph) {
   Measured measured;
   std::vector<double> cpu_s;
   std::vector<double> wall_s;
+  std::vector<Json> stages;
   for (int round = 0; round < options.repeat; ++round) {
     graph->reset();
     const auto start = std::chrono::steady_clock::now();
@@ -139,7 +182,9 @@ Measured optimize(const Options& options, OptimizableGraph* graph) {
     cpu_s.push_back(processCpu_s() - cpu_start_s);
     wall_s.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    if (graph->stages() != nullptr) stages.push_back(toJson(*graph->stages()));
   }
+  measured.hierarchy = medians(stages);
   measured.cpu_s = quantile(cpu_s, kMedian);
   measured.wall_s = quantile(wall_s, kMedian);
   return measured;
@@ -194,8 +239,23 @@ void warnOfIgnored(const std::map<std::string, int>& ignored) {
   if (kinds > kMostKinds) std::cerr << "sgraphs_optimize: ... and records of other types\n";
 }
 
-void run(const Options& options) {
+std::unique_ptr<OptimizableGraph> read(const Options& options) {
+  return options.mode == "baseline" ? readOptimizableGraph(options.file)
+                                    : readCompressedGraph(options.file, options.mode);
+}
+
+/// The whole graph from the same values.
+Json compared(const Options& options) {
   const std::unique_ptr<OptimizableGraph> graph = readOptimizableGraph(options.file);
+  const Measured measured = optimize(options, graph.get());
+  return {{"chi2", measured.report.cost_after},
+          {"cpu_s", measured.cpu_s},
+          {"iterations", measured.report.iterations},
+          {"free_tangents", measured.report.free_tangents}};
+}
+
+void run(const Options& options) {
+  const std::unique_ptr<OptimizableGraph> graph = read(options);
   const OptimizableGraph::Counts counts = graph->counts();
   warnOfIgnored(counts.ignored);
   Json init;
@@ -209,6 +269,8 @@ void run(const Options& options) {
 
   Json json = toJson(options, counts, measured);
   if (!init.is_null()) json["chordal"] = init;
+  if (!measured.hierarchy.is_null()) json["hierarchy"] = measured.hierarchy;
+  if (options.compare) json["baseline"] = compared(options);
   json["peak_mib"] = peakMemory_MiB();
   std::cout << json.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
   if (!std::cout) throw std::runtime_error("cannot write the report");

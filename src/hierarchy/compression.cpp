@@ -44,6 +44,39 @@ std::optional<FactorId> condensedFactorOf(KeyframeId kept, const LayeredGraph& g
   return std::nullopt;
 }
 
+/// The keyframes whose factors are on the shelf for a kept one.
+std::vector<KeyframeId> droppedFor(KeyframeId kept, const LayeredGraph& graph) {
+  std::set<KeyframeId> dropped;
+  for (const FactorId id : graph.shelf().keptBy(kept)) {
+    const FactorConstPtr& factor = graph.factor(id);
+    for (int k = 0; k < factor->nodeCount(); ++k) {
+      const NodeId node = factor->node(k);
+      if (node.layer != Layer::kKeyframe) continue;
+      const KeyframeId keyframe{node.value};
+      if (graph.attributes(keyframe).marginalized) dropped.insert(keyframe);
+    }
+  }
+  return {dropped.begin(), dropped.end()};
+}
+
+/// Makes the condensed factor of a kept keyframe from what is on the shelf for it.
+/// @return False, and nothing has changed, if some keyframe is not determined.
+bool condenseShelved(KeyframeId kept, const std::vector<KeyframeId>& dropped,
+                     LayeredGraph* graph) {
+  std::vector<FactorId> ids = graph->shelf().keptBy(kept);
+  std::sort(ids.begin(), ids.end());
+  std::vector<FactorConstPtr> factors;
+  for (const FactorId id : ids) factors.push_back(graph->factor(id));
+  const auto condensed = condenseInSteps(factors, kept, dropped, *graph);
+  if (condensed == nullptr) return false;
+  if (const std::optional<FactorId> own = condensedFactorOf(kept, *graph)) {
+    graph->replaceFactor(*own, condensed);
+  } else {
+    graph->addFactor(condensed);
+  }
+  return true;
+}
+
 void setDropped(KeyframeId id, std::optional<KeyframeId> representative, LayeredGraph* graph) {
   KeyframeAttributes attributes = graph->attributes(id);
   attributes.marginalized = representative.has_value();
@@ -206,35 +239,18 @@ bool Compression::mend(LayeredGraph* graph) {
 }
 
 bool Compression::makeAgain(KeyframeId kept, LayeredGraph* graph) {
-  std::set<KeyframeId> dropped_ids;
-  for (const FactorId id : graph->shelf().keptBy(kept)) {
-    const FactorConstPtr& factor = graph->factor(id);
-    for (int k = 0; k < factor->nodeCount(); ++k) {
-      const NodeId node = factor->node(k);
-      if (node.layer != Layer::kKeyframe) continue;
-      const KeyframeId keyframe{node.value};
-      if (graph->attributes(keyframe).marginalized) dropped_ids.insert(keyframe);
-    }
-  }
-  const std::vector<KeyframeId> dropped(dropped_ids.begin(), dropped_ids.end());
+  const std::vector<KeyframeId> dropped = droppedFor(kept, *graph);
   for (const KeyframeId id : dropped) {
     carryOver(id, graph->attributes(id).representative.value_or(kept), graph);
   }
   for (const FactorId id : factorsOf(dropped, *graph)) graph->shelve(id, kept);
   if (config_.mode == "paper") return true;
   resolveDropped(kept, OptimizerConfig{}, graph);
-  std::vector<FactorId> ids = graph->shelf().keptBy(kept);
-  std::sort(ids.begin(), ids.end());
-  std::vector<FactorConstPtr> factors;
-  for (const FactorId id : ids) factors.push_back(graph->factor(id));
-  const auto condensed = condenseInSteps(factors, kept, dropped, *graph);
-  const std::optional<FactorId> own = condensedFactorOf(kept, *graph);
-  if (own && condensed != nullptr) {
-    graph->replaceFactor(*own, condensed);
-  } else if (condensed != nullptr) {
-    graph->addFactor(condensed);
-  }
-  return condensed != nullptr;
+  return condenseShelved(kept, dropped, graph);
+}
+
+bool Compression::condenseAgain(KeyframeId kept, LayeredGraph* graph) {
+  return condenseShelved(kept, droppedFor(kept, *graph), graph);
 }
 
 double Compression::resolve(const OptimizerConfig& optimizer, LayeredGraph* graph) {

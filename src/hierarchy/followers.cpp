@@ -4,7 +4,6 @@
 #include "mrpt_sgraphs/hierarchy/followers.h"
 
 #include <algorithm>
-#include <unordered_map>
 #include <utility>
 
 #include "mrpt_sgraphs/hierarchy/optimize_selection.h"
@@ -52,34 +51,13 @@ OptimizerReport Followers::optimize(const Selection& selection, const OptimizerC
 double resolveDropped(KeyframeId kept, const OptimizerConfig& config, LayeredGraph* graph) {
   std::vector<FactorId> ids = graph->shelf().keptBy(kept);
   std::sort(ids.begin(), ids.end());
-  Problem problem;
-  std::unordered_map<NodeId, int> variables;
-  std::vector<std::pair<KeyframeId, int>> dropped;
-  std::vector<int> ends;
-  for (const FactorId id : ids) {
-    const Factor& factor = *graph->factor(id);
-    ends.clear();
-    for (int k = 0; k < factor.nodeCount(); ++k) {
-      const NodeId node = factor.node(k);
-      const auto [entry, is_new] = variables.try_emplace(node, 0);
-      if (is_new) {
-        const bool is_dropped = node.layer == Layer::kKeyframe &&
-                                graph->attributes(KeyframeId{node.value}).marginalized;
-        const NodeHandle handle = graph->handle(node);
-        entry->second = isPlane(node.layer)
-                            ? problem.addVariable(node, graph->plane(handle), true)
-                            : problem.addVariable(node, graph->pose(handle), !is_dropped);
-        if (is_dropped) dropped.emplace_back(KeyframeId{node.value}, entry->second);
-      }
-      ends.push_back(entry->second);
-    }
-    problem.addFactor(factor, ends.data());
-  }
-  if (dropped.empty()) return 0.0;
-  Optimizer optimizer;
-  const OptimizerReport report = optimizer.optimize(config, &problem);
-  for (const auto& [id, variable] : dropped) graph->setPose(id, problem.pose(variable));
-  return report.total_ms;
+  std::vector<FactorConstPtr> factors;
+  for (const FactorId id : ids) factors.push_back(graph->factor(id));
+  const auto is_dropped = [graph](NodeId node) {
+    return node.layer == Layer::kKeyframe &&
+           graph->attributes(KeyframeId{node.value}).marginalized;
+  };
+  return optimizeUnder(factors, is_dropped, config, graph).total_ms;
 }
 
 }  // namespace mrpt_sgraphs

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "mrpt_sgraphs/hierarchy/condense.h"
@@ -222,6 +223,43 @@ OptimizerReport optimizeSelection(const Selection& selection, const OptimizerCon
   SelectedProblem selected(selection, *graph);
   OptimizerReport report = optimizer->optimize(config, selected.problem());
   selected.writeBack(graph);
+  return report;
+}
+
+OptimizerReport optimizeUnder(const std::vector<FactorConstPtr>& factors,
+                              const std::function<bool(NodeId)>& is_free,
+                              const OptimizerConfig& config, LayeredGraph* graph) {
+  Problem problem;
+  std::unordered_map<NodeId, int> variables;
+  std::vector<std::pair<NodeHandle, int>> moving;
+  std::vector<int> ends;
+  for (const FactorConstPtr& factor : factors) {
+    ends.clear();
+    for (int k = 0; k < factor->nodeCount(); ++k) {
+      const NodeId node = factor->node(k);
+      const auto [entry, is_new] = variables.try_emplace(node, 0);
+      if (is_new) {
+        const NodeHandle handle = graph->handle(node);
+        const bool moves = is_free(node);
+        entry->second = isPlane(node.layer)
+                            ? problem.addVariable(node, graph->plane(handle), !moves)
+                            : problem.addVariable(node, graph->pose(handle), !moves);
+        if (moves) moving.emplace_back(handle, entry->second);
+      }
+      ends.push_back(entry->second);
+    }
+    problem.addFactor(*factor, ends.data());
+  }
+  if (moving.empty()) return {};
+  Optimizer optimizer;
+  const OptimizerReport report = optimizer.optimize(config, &problem);
+  for (const auto& [handle, variable] : moving) {
+    if (isPlane(handle.layer)) {
+      graph->setPlane(handle, problem.plane(variable));
+    } else {
+      graph->setPose(handle, problem.pose(variable));
+    }
+  }
   return report;
 }
 

@@ -36,6 +36,11 @@ class Compression {
   /// @return CPU time [ms].
   double resolve(const OptimizerConfig& optimizer, LayeredGraph* graph);
 
+  /// Condenses the dropped keyframes of a kept one once more, where the graph is now: to do after they
+  /// were found again far from where they were condensed.
+  /// @return Whether they are determined; otherwise nothing has changed.
+  bool condenseAgain(KeyframeId kept, LayeredGraph* graph);
+
   /// Everything that was dropped comes back, with the factors that it had.
   void restore(LayeredGraph* graph);
 

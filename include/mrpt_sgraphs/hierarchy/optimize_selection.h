@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "mrpt_sgraphs/hierarchy/selection.h"
 #include "mrpt_sgraphs/solver/optimizer.h"
 
@@ -16,5 +19,11 @@ namespace mrpt_sgraphs {
 ///         unless that says to leave it out. The graph is then as it was.
 OptimizerReport optimizeSelection(const Selection& selection, const OptimizerConfig& config,
                                   Optimizer* optimizer, LayeredGraph* graph);
+
+/// Optimizes the nodes of these factors alone that `is_free` says may move. Nothing else changes.
+/// @param factors  In the graph, on its shelf, or neither.
+OptimizerReport optimizeUnder(const std::vector<FactorConstPtr>& factors,
+                              const std::function<bool(NodeId)>& is_free,
+                              const OptimizerConfig& config, LayeredGraph* graph);
 
 }  // namespace mrpt_sgraphs
