@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 
 #include "compressed_walk.h"
+#include "mrpt_sgraphs/factors/relative_pose_quaternion.h"
 #include "mrpt_sgraphs/io/exports.h"
 #include "mrpt_sgraphs/io/g2o_file.h"
 #include "temporary_folder.h"
