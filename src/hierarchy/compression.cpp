@@ -93,7 +93,7 @@ void Compression::takeIn(const LayeredGraph& graph) {
     const KeyframeId id{graph.nodeAt({Layer::kKeyframe, known_}).value};
     const KeyframeAttributes& keyframe = graph.attributes(id);
     if (keyframe.marginalized && keyframe.representative) {
-      followers_.add(*keyframe.representative, id);
+      followers_.add(*keyframe.representative, graph.pose(*keyframe.representative), id);
     } else {
       active_.push_back(id);
     }
@@ -137,12 +137,14 @@ void Compression::apply(const RegionPlan& plan, LayeredGraph* graph) {
 
 void Compression::drop(const RegionPlan& plan, LayeredGraph* graph) {
   for (const KeyframeId id : plan.dropped) {
+    followers_.place(id, graph);
     std::vector<KeyframeId> moved = followers_.take(id);
     moved.push_back(id);
     for (const KeyframeId follower : moved) {
       const KeyframeId representative = standIn(follower, plan.stay, *graph);
       setDropped(follower, representative, graph);
-      followers_.add(representative, follower);
+      followers_.place(representative, graph);
+      followers_.add(representative, graph->pose(representative), follower);
     }
   }
   const std::set<KeyframeId> dropped(plan.dropped.begin(), plan.dropped.end());
@@ -255,6 +257,7 @@ bool Compression::condenseAgain(KeyframeId kept, LayeredGraph* graph) {
 
 double Compression::resolve(const OptimizerConfig& optimizer, LayeredGraph* graph) {
   CpuStopwatch watch;
+  followers_.placeAll(graph);
   for (const KeyframeId id : active_) {
     if (condensedFactorOf(id, *graph)) resolveDropped(id, optimizer, graph);
   }

@@ -25,6 +25,15 @@ void addSeen(const LayeredGraph& graph, NodeHandle keyframe, Layer layer, NodeSe
   }
 }
 
+/// Some may have been merged since the room was detected.
+std::vector<WallId> wallsOf(const LayeredGraph& graph, RoomId room) {
+  std::vector<WallId> walls;
+  for (const WallId wall : graph.attributes(room).walls) {
+    if (graph.contains(wall)) walls.push_back(wall);
+  }
+  return walls;
+}
+
 /// The free nodes, and what they are tied to stays. Something has to: if there is no pose among it,
 /// the keyframe that is the first of the free ones.
 Selection completed(const LayeredGraph& graph, const NodeSet& free) {
@@ -81,7 +90,8 @@ bool isWithin(const LayeredGraph& graph, RoomId room, const Eigen::Vector3d& poi
     return contains(flattened(attributes.extent_map, frame), frame.flat(point_map));
   }
   const Eigen::Vector3d centre_map = graph.pose(room).translation();
-  return std::all_of(attributes.walls.begin(), attributes.walls.end(), [&](WallId id) {
+  const std::vector<WallId> walls = wallsOf(graph, room);
+  return std::all_of(walls.begin(), walls.end(), [&](WallId id) {
     const Plane wall = graph.plane(id);
     const double side = wall.normal.dot(centre_map) - wall.distance;
     return side * (wall.normal.dot(point_map) - wall.distance) > 0.0;
@@ -93,7 +103,7 @@ Selection selectRoom(const LayeredGraph& graph, RoomId room) {
   const RoomAttributes& attributes = graph.attributes(room);
   // who sees none of its walls is not in it
   NodeSet inside;
-  for (const WallId wall : attributes.walls) {
+  for (const WallId wall : wallsOf(graph, room)) {
     for (const FactorLink& link : topology.sightings(graph.handle(wall))) {
       const NodeHandle node = topology.ends(link.slot)[0].node;
       const KeyframeAttributes& keyframe = graph.attributes(KeyframeId{graph.nodeAt(node).value});
@@ -106,9 +116,11 @@ Selection selectRoom(const LayeredGraph& graph, RoomId room) {
   }
   NodeSet free = inside;
   for (const NodeHandle keyframe : inside.nodes()) addSeen(graph, keyframe, Layer::kWall, &free);
-  for (const WallId wall : attributes.walls) free.add(graph.handle(wall));
+  for (const WallId wall : wallsOf(graph, room)) free.add(graph.handle(wall));
   free.add(graph.handle(room));
-  if (attributes.floor) free.add(graph.handle(*attributes.floor));
+  if (attributes.floor && graph.contains(*attributes.floor)) {
+    free.add(graph.handle(*attributes.floor));
+  }
   return completed(graph, free);
 }
 

@@ -112,6 +112,7 @@ void Stages::finish(LayeredGraph* graph, Summaries* summaries) {
   summaries->push_back(
       optimize("global", selectAll(*graph), optimizer_config_.min_relative_decrease, graph));
   window_.forget();
+  compression_.followers().placeAll(graph);
   if (hierarchy_.mode != "condensed") return;
   OptimizationSummary summary = begun("resolve", *graph);
   summary.converged = true;

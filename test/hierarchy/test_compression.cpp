@@ -48,9 +48,9 @@ OptimizerConfig exact() {
   return config;
 }
 
-void optimize(const Compression& compression, LayeredGraph* graph) {
+void optimize(Compression* compression, LayeredGraph* graph) {
   Optimizer optimizer;
-  compression.followers().optimize(selectAll(*graph), exact(), &optimizer, graph);
+  compression->followers().optimize(selectAll(*graph), exact(), &optimizer, graph);
 }
 
 /// A tour, compressed at its optimum or near it, beside the same one that is not.
@@ -101,7 +101,7 @@ TEST_F(CompressionTest, ARoomKeepsItsFirstKeyframeAndOneFactor) {
 
 TEST_F(CompressionTest, LosesNearlyNothing) {
   compressAll(&compression_, &lab_.graph);
-  optimize(compression_, &lab_.graph);
+  optimize(&compression_, &lab_.graph);
   compression_.resolve(exact(), &lab_.graph);
   // ways out of a room by the door that it was entered by are transferred: half the sigma of one step
   expectAsFull(0.011);
@@ -120,7 +120,7 @@ TEST_F(CompressionTest, LosesNothingWhereEachPassageIsKept) {
     if (keyframe.marginalized || keyframe.id.value == 0) continue;
     lab_.graph.setPose(keyframe.id, keyframe.T_map_base * random.smallPose(0.01, 0.005));
   }
-  optimize(all_kept, &lab_.graph);
+  optimize(&all_kept, &lab_.graph);
   all_kept.resolve(exact(), &lab_.graph);
   expectAsFull(1e-5);
 }
@@ -131,7 +131,7 @@ TEST_F(CompressionTest, AnotherVisitFoldsIntoTheSameFactor) {
   std::vector<std::size_t> factors;
   for (int tour = 0; tour < 4; ++tour) {
     lab_.tour();
-    optimize(compression_, &lab_.graph);
+    optimize(&compression_, &lab_.graph);
     compressAll(&compression_, &lab_.graph);
     EXPECT_EQ(condensedFactorsOf(lab_.graph), 3);
     active.push_back(static_cast<int>(lab_.truth.size()) - droppedOf(lab_.graph));
@@ -142,7 +142,7 @@ TEST_F(CompressionTest, AnotherVisitFoldsIntoTheSameFactor) {
 
   for (int tour = 0; tour < 4; ++tour) full_.tour();
   full_.optimize();
-  optimize(compression_, &lab_.graph);
+  optimize(&compression_, &lab_.graph);
   compression_.resolve(exact(), &lab_.graph);
   expectAsFull(5e-3);
 }
@@ -166,7 +166,7 @@ TEST_F(CompressionTest, AnEdgeBetweenRoomsIsTransferred) {
     EXPECT_GT(edge->information().inverse().trace(), 3.0 / 2500.0 + 3.0 / 4e4);
   }
   EXPECT_LE(bridges, 1);
-  optimize(compression_, &lab_.graph);
+  optimize(&compression_, &lab_.graph);
   compression_.resolve(exact(), &lab_.graph);
   expectAsFull(5e-3);
 }
@@ -185,7 +185,7 @@ TEST_F(CompressionTest, WhatIsErasedLaterIsTakenOut) {
     }
   }
   full_.optimize();
-  optimize(compression_, &lab_.graph);
+  optimize(&compression_, &lab_.graph);
   compression_.resolve(exact(), &lab_.graph);
   for (std::size_t k = 0; k < lab_.truth.size(); ++k) {
     EXPECT_LE(local(full_.graph.pose(KeyframeId{k}), lab_.graph.pose(KeyframeId{k})).norm(), 0.011);
@@ -204,7 +204,7 @@ TEST_F(CompressionTest, ASightOfADroppedKeyframeThatComesLateCounts) {
   EXPECT_TRUE(compression_.mend(&lab_.graph));
   EXPECT_TRUE(lab_.graph.sightingsOf(dropped).empty());
   full_.optimize();
-  optimize(compression_, &lab_.graph);
+  optimize(&compression_, &lab_.graph);
   compression_.resolve(exact(), &lab_.graph);
   expectAsFull(0.011);
 }
@@ -217,7 +217,7 @@ TEST_F(CompressionTest, DroppedKeyframesMoveWithTheirRoom) {
   const Pose goal = lab_.graph.pose(kept) * expPose((Tangent() << 0.5, 0.2, 0.0, 0.0, 0.0, 0.1).finished());
   lab_.connect(KeyframeId{0}, kept, lab_.graph.pose(KeyframeId{0}).inverse() * goal,
                RelativePoseFactor::Kind::kLoopClosure);
-  optimize(compression_, &lab_.graph);
+  optimize(&compression_, &lab_.graph);
   EXPECT_GT(local(lab_.graph.pose(kept), full_.graph.pose(kept)).norm(), 0.01);
   EXPECT_LE(local(T_kept_dropped, lab_.graph.pose(kept).inverse() * lab_.graph.pose(dropped)).norm(),
             1e-12);

@@ -17,6 +17,7 @@ class Compression {
   explicit Compression(const HierarchyConfig& config) : config_(config) {}
 
   const Followers& followers() const { return followers_; }
+  Followers& followers() { return followers_; }
 
   /// What can be compressed now. Keyframes of the local window are left alone, and looking costs
   /// nothing until enough keyframes have come.

@@ -12,20 +12,36 @@
 namespace mrpt_sgraphs {
 
 /// The dropped keyframes, each by the kept one that it moves with.
+///
+/// They are moved when that has gone by more than a millimetre, or all at once on request: so that an
+/// optimization does not cost more the more keyframes were dropped.
 class Followers {
  public:
-  void add(KeyframeId kept, KeyframeId dropped) { of_[kept].push_back(dropped); }
+  /// @param T_map_kept  Where the kept one is as long as they are.
+  void add(KeyframeId kept, const Pose& T_map_kept, KeyframeId dropped);
   /// Those of a kept keyframe that is dropped itself.
   std::vector<KeyframeId> take(KeyframeId kept);
-  std::size_t count() const;
-  void clear() { of_.clear(); }
+  std::size_t count() const { return count_; }
+  void clear();
 
   /// optimizeSelection, and dropped keyframes go with the kept ones, rigidly.
   OptimizerReport optimize(const Selection& selection, const OptimizerConfig& config,
-                           Optimizer* optimizer, LayeredGraph* graph) const;
+                           Optimizer* optimizer, LayeredGraph* graph);
+
+  /// Moves those of one kept keyframe, or all, to the last digit.
+  void place(KeyframeId kept, LayeredGraph* graph);
+  void placeAll(LayeredGraph* graph);
 
  private:
-  std::map<KeyframeId, std::vector<KeyframeId>> of_;
+  struct Group {
+    std::vector<KeyframeId> dropped;
+    Pose T_map_kept = Pose::Identity();  ///< When they were placed.
+  };
+
+  static void place(KeyframeId kept, Group* group, LayeredGraph* graph);
+
+  std::map<KeyframeId, Group> of_;
+  std::size_t count_ = 0;
 };
 
 /// Finds the dropped keyframes of a region again from their own factors, all that remains as it is:
