@@ -147,6 +147,7 @@ Json toJson(const WholeGraphReport& report) {
             {"room_local", kMilli * report.room_local_ms},
             {"condense", kMilli * report.condense_ms},
             {"global", kMilli * report.global_ms},
+            {"solve", kMilli * report.global.total_ms},
             {"first_global", kMilli * report.first_global_ms},
             {"resolve", kMilli * report.resolve_ms}}}};
 }

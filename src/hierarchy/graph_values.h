@@ -64,9 +64,6 @@ class Values {
     });
   }
 
-  void writeTo(LayeredGraph* graph) const {
-    forAll(*graph, [&](NodeHandle node) { writeTo(graph, node); });
-  }
   void writeTo(LayeredGraph* graph, NodeHandle node) const {
     const std::size_t place = first_[static_cast<std::size_t>(node.layer)] + node.slot;
     if (isPlane(node.layer)) {

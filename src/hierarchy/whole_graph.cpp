@@ -25,7 +25,7 @@ constexpr std::size_t kLongestStretch = 20;
 /// What is condensed again at the end need not be to the last digit before.
 constexpr double kRoughDecrease = 0.01;
 /// So little of the full cost is left between it and the condensed one: the same optimum.
-constexpr double kSameCost = 1e-5;
+constexpr double kSameCost = 1e-6;
 constexpr int kMostRounds = 10;
 
 HierarchyConfig configOf(const std::string& mode) {
@@ -59,8 +59,8 @@ class WholeGraph {
       ++report_.rounds;
       if (report_.rounds > 1) condenseAgain();
       optimizeGlobally();
-      if (is_paper_) break;
       resolve();
+      if (is_paper_) break;
       const double before = std::exchange(cost, full_cost_.of(graph_));
       const bool is_same = std::abs(cost - report_.condensed_cost) <= kSameCost * cost;
       const bool is_still = report_.rounds > 1 && std::abs(cost - before) <= kSameCost * cost;
@@ -168,16 +168,11 @@ class WholeGraph {
   }
 
   /// Each region was optimized for itself: they do not fit together. What is left begins where it
-  /// was, and what was dropped lies in its region as it does.
+  /// was.
   void goBackTo(const Values& before) {
-    before.writeTo(&graph_);
-    bringDropped();
-  }
-
-  void bringDropped() {
-    for (const auto& [id, T_leader_id] : ways_) {
-      const KeyframeId leader = *graph_.attributes(id).representative;
-      graph_.setPose(id, orthonormalized(graph_.pose(leader) * T_leader_id));
+    const Selection left = selectAll(graph_);
+    for (const auto* const nodes : {&left.free, &left.fixed}) {
+      for (const NodeId node : *nodes) before.writeTo(&graph_, graph_.handle(node));
     }
   }
 
@@ -186,11 +181,7 @@ class WholeGraph {
     const FullCost left(graph_);
     const double cost = left.of(graph_);
     putTogether(&graph_);
-    if (left.of(graph_) < cost) {
-      bringDropped();
-    } else {
-      goBackTo(before);
-    }
+    if (left.of(graph_) >= cost) goBackTo(before);
   }
 
   void condenseAgain() {
@@ -202,7 +193,7 @@ class WholeGraph {
   void optimizeGlobally() {
     CpuStopwatch watch;
     const OptimizerReport report =
-        compression_.followers().optimize(selectAll(graph_), config_, &optimizer_, &graph_);
+        optimizeSelection(selectAll(graph_), config_, &optimizer_, &graph_);
     report_.global_ms += watch.lap();
     if (report_.rounds == 1) report_.first_global_ms = report_.global_ms;
     report_.condensed_cost = report.cost_after;
@@ -220,9 +211,18 @@ class WholeGraph {
     sum.factorize_ms += report.factorize_ms;
   }
 
+  /// The dropped keyframes, first as they lay from those that they go with.
   void resolve() {
     CpuStopwatch watch;
-    for (const KeyframeId kept : kept_) resolveDropped(kept, config_, &graph_);
+    if (report_.rounds == 1) {
+      for (const auto& [id, T_leader_id] : ways_) {
+        const KeyframeId leader = *graph_.attributes(id).representative;
+        graph_.setPose(id, orthonormalized(graph_.pose(leader) * T_leader_id));
+      }
+    }
+    if (!is_paper_) {
+      for (const KeyframeId kept : kept_) resolveDropped(kept, config_, &graph_);
+    }
     report_.resolve_ms += watch.lap();
   }
 

@@ -87,8 +87,10 @@ class CondensedFactor final : public Factor {
 
     Eigen::Map<Eigen::MatrixXd> hessian(H, 6 + rows, 6 + rows);
     Eigen::Map<Eigen::VectorXd> gradient(g, 6 + rows);
-    work.weighted_J_kept.noalias() = Lambda * work.J_kept;
-    hessian.topLeftCorner<6, 6>().noalias() = work.J_kept.transpose() * work.weighted_J_kept;
+    // sizes at which to block and pack costs more than to multiply
+    work.weighted_J_kept.noalias() = Lambda.lazyProduct(work.J_kept);
+    hessian.topLeftCorner<6, 6>().noalias() =
+        work.J_kept.transpose().lazyProduct(work.weighted_J_kept);
     gradient.head<6>().noalias() = work.J_kept.transpose() * work.half_gradient;
 
     // the Jacobians of planes, and of a pose's translation and rotation each, have three columns
