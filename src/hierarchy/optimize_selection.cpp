@@ -53,7 +53,7 @@ class VariableNumbers {
 
  private:
   static constexpr Layer kLayers[] = {Layer::kKeyframe, Layer::kWall, Layer::kRoom, Layer::kFloor};
-  static constexpr std::size_t kSparse = 8;  ///< Nodes for each selected one.
+  static constexpr std::size_t kSparse = 64;  ///< Nodes for each selected one.
 
   static uint64_t key(NodeHandle node) {
     return (static_cast<uint64_t>(node.layer) << 32U) | node.slot;

@@ -116,7 +116,8 @@ TEST_F(CompressionTest, LosesNothingWhereEachPassageIsKept) {
   EXPECT_EQ(droppedOf(lab_.graph), static_cast<int>(lab_.truth.size()) - 5 - 2);
   // from somewhere else back to where the full graph has it
   test::RandomGeometry random(3);
-  for (const KeyframeNode& keyframe : lab_.graph.snapshot()->keyframes) {
+  const GraphSnapshotConstPtr compressed = lab_.graph.snapshot();
+  for (const KeyframeNode& keyframe : compressed->keyframes) {
     if (keyframe.marginalized || keyframe.id.value == 0) continue;
     lab_.graph.setPose(keyframe.id, keyframe.T_map_base * random.smallPose(0.01, 0.005));
   }

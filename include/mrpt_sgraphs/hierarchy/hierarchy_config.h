@@ -19,7 +19,7 @@ struct HierarchyConfig {
   int max_passages = 1;         ///< Keyframes that are kept for each way between two regions.
   /// Clouds and planes of dropped keyframes are let go of where another cloud was taken so near in the
   /// same room, so that memory grows with the area and not with the time spent there; 0: all are kept.
-  double cloud_spacing_m = 0.7;
+  double cloud_spacing_m = 1.0;
   /// Wall time after which an optimization begins no further iteration, and after which no further
   /// region is condensed for one keyframe; 0: none. sgraphs_offline knows none.
   double budget_ms = 100.0;
