@@ -36,7 +36,6 @@ struct Played {
 SlamConfig configOf(const OfflineOptions& options) {
   SlamConfig config = options.params.empty() ? SlamConfig{} : loadConfigFile(options.params);
   if (!options.mode.empty()) config.hierarchy.mode = options.mode;
-  config.hierarchy.budget_ms = 0.0;  // the same input is to give the same bytes
   return config;
 }
 

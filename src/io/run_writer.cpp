@@ -23,12 +23,13 @@ void writeFile(const std::string& path, const Write& write) {
 }
 
 void writeOptimizations(const std::vector<OptimizationSummary>& rows, std::ostream& out) {
-  out << "stamp,kind,mode,keyframes_active,keyframes_marginalized,walls,rooms,floors,factors,"
-         "free_variables,iterations,cost_before,cost_after,converged,total_ms,linearize_ms,"
+  out << "stamp,kind,mode,room,keyframes_active,keyframes_marginalized,dropped,walls,rooms,floors,"
+         "factors,free_variables,iterations,cost_before,cost_after,converged,total_ms,linearize_ms,"
          "factorize_ms\n";
   for (const OptimizationSummary& r : rows) {
     out << std::fixed << std::setprecision(6) << r.stamp_s << ',' << r.kind << ',' << r.mode << ','
-        << r.keyframes_active << ',' << r.keyframes_marginalized << ',' << r.walls << ','
+        << (r.room ? std::to_string(r.room->value) : "") << ',' << r.keyframes_active << ','
+        << r.keyframes_marginalized << ',' << r.dropped << ',' << r.walls << ','
         << r.rooms << ',' << r.floors << ',' << r.factors << ',' << r.free_variables << ','
         << r.iterations << ',' << r.cost_before << ',' << r.cost_after << ','
         << (r.converged ? 1 : 0) << ',' << std::setprecision(3) << r.total_ms << ','

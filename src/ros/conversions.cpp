@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "surface_message.h"
+
 namespace mrpt_sgraphs {
 namespace {
 
@@ -173,8 +175,10 @@ OptimizationReport toMsg(const OptimizationSummary& summary, const std::string& 
   msg.header.frame_id = map_frame;
   msg.kind = summary.kind;
   msg.mode = summary.mode;
+  msg.room = toIdMsg(summary.room);
   msg.keyframes_active = summary.keyframes_active;
   msg.keyframes_marginalized = summary.keyframes_marginalized;
+  msg.dropped = summary.dropped;
   msg.walls = summary.walls;
   msg.rooms = summary.rooms;
   msg.floors = summary.floors;

@@ -18,6 +18,7 @@
 #include "graph_publisher.h"
 #include "graph_services.h"
 #include "graph_slam_thread.h"
+#include "live_hierarchy.h"
 #include "mrpt_sgraphs/ros/conversions.h"
 #include "mrpt_sgraphs/ros/detections.h"
 #include "pipeline_nodelet.h"
@@ -38,6 +39,12 @@ std::string rescueFolder(double last_stamp_s) {
   return base + "/mrpt_sgraphs/until_" + std::to_string(last_stamp_s);
 }
 
+std::size_t droppedIn(const GraphSnapshot& graph) {
+  return static_cast<std::size_t>(
+      std::count_if(graph.keyframes.begin(), graph.keyframes.end(),
+                    [](const KeyframeNode& keyframe) { return keyframe.marginalized; }));
+}
+
 }  // namespace
 
 /// The back end among the nodelets: GraphSlam on its own thread, what goes in and what comes out.
@@ -49,9 +56,9 @@ std::string rescueFolder(double last_stamp_s) {
 ///             floors           (mrpt_sgraphs/Floors)           found in graphs of ours
 ///             rooms            (mrpt_sgraphs/Rooms)            likewise
 /// Publishes   see GraphPublisher and DisplayPublisher
-/// Serves      see GraphServices
-/// Parameters  loop_closure/*, walls/*, ground/*, rooms/*, solver/*, and for the record of a run
-///             all of SlamConfig
+/// Serves      see GraphServices; LiveHierarchy in hierarchy
+/// Parameters  loop_closure/*, walls/*, ground/*, rooms/*, hierarchy/*, solver/*, and for the
+///             record of a run all of SlamConfig
 ///             frames/map, frames/odom                          FramesConfig
 ///             display/*                                        DisplayConfig
 class GraphSlamNodelet final : public PipelineNodelet {
@@ -69,7 +76,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
     slam_ = std::make_unique<GraphSlamThread>(
         config, GraphSlamThread::Listener{
                     [this](const GraphSnapshotConstPtr& graph, std::uint32_t session) {
-                      publisher_->publish(graph, session);
+                      onGraph(graph, session);
                     },
                     [this](const OptimizationSummary& summary) { onOptimization(summary); },
                     [this](const std::string& problem) { NODELET_WARN("%s", problem.c_str()); }});
@@ -82,6 +89,11 @@ class GraphSlamNodelet final : public PipelineNodelet {
         DisplayPublisher::Source{[this] { return publisher_->graph(); },
                                  [this] { return slam_->trajectory().get(); },
                                  [this] { return lastOptimization(); }});
+    hierarchy_ = std::make_unique<LiveHierarchy>(
+        ros::NodeHandle(patient_nh, "hierarchy"),
+        LiveHierarchy::Listener{
+            [this](const HierarchyConfig& hierarchy) { slam_->setHierarchy(hierarchy); },
+            [this](const std::string& problem) { NODELET_WARN("%s", problem.c_str()); }});
     patient_spinner_.start();
 
     diagnostics_ = std::make_unique<Diagnostics>(
@@ -151,14 +163,22 @@ class GraphSlamNodelet final : public PipelineNodelet {
       session_ = session;
       matcher_.clear();
       slam_->startAgain(session, rescueFolder(last_stamp_s_));
-      const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
-      last_optimization_.reset();
     }
     return session == session_;
   }
 
+  void onGraph(const GraphSnapshotConstPtr& graph, std::uint32_t session) {
+    if (session != session_of_graph_) {
+      session_of_graph_ = session;
+      const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
+      last_optimization_.reset();
+    }
+    publisher_->publish(graph, session);
+  }
+
   void onOptimization(const OptimizationSummary& summary) {
     publisher_->publish(summary);
+    if (summary.free_keyframes.runs().empty()) return;  // of dropping keyframes nothing is shown
     const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
     last_optimization_ = summary;
   }
@@ -188,7 +208,11 @@ class GraphSlamNodelet final : public PipelineNodelet {
     }
     status.add("jobs waiting", waiting);
     status.add("keyframes incomplete", matcher_.waiting());
+    const std::size_t dropped = graph ? droppedIn(*graph) : 0;
+    status.add("mode", hierarchy_->now().mode);
     status.add("keyframes", graph ? graph->keyframes.size() : 0);
+    status.add("keyframes active", graph ? graph->keyframes.size() - dropped : 0);
+    status.add("keyframes dropped", dropped);
     status.add("walls", graph ? graph->walls.size() : 0);
     status.add("rooms", graph ? graph->rooms.size() : 0);
     status.add("floors", graph ? graph->floors.size() : 0);
@@ -209,11 +233,13 @@ class GraphSlamNodelet final : public PipelineNodelet {
   double last_stamp_s_ = 0.0;
   std::mutex last_optimization_mutex_;  ///< Guards the next one.
   std::optional<OptimizationSummary> last_optimization_;
+  std::uint32_t session_of_graph_ = 0;  ///< Belongs to the back end's thread.
   std::unique_ptr<GraphPublisher> publisher_;
   std::unique_ptr<GraphSlamThread> slam_;
   ros::CallbackQueue patient_queue_;  ///< For what may wait for the back end.
   std::unique_ptr<GraphServices> services_;
   std::unique_ptr<DisplayPublisher> display_;
+  std::unique_ptr<LiveHierarchy> hierarchy_;
   ros::AsyncSpinner patient_spinner_{1, &patient_queue_};
   std::unique_ptr<Diagnostics> diagnostics_;
   ros::Subscriber scan_sub_;

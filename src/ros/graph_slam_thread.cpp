@@ -86,6 +86,14 @@ void GraphSlamThread::setRooms(std::uint32_t session, const RoomDetection& rooms
   });
 }
 
+void GraphSlamThread::setHierarchy(const HierarchyConfig& hierarchy) {
+  post([this, hierarchy] {
+    session_->slam.setHierarchy(hierarchy);
+    config_.hierarchy = hierarchy;
+    tellGraph();
+  });
+}
+
 void GraphSlamThread::startAgain(std::uint32_t session, const std::string& folder) {
   post([this, session, folder] {
     std::string fate = "nothing had been mapped";
@@ -125,7 +133,13 @@ std::size_t GraphSlamThread::waiting() const {
   return jobs_.size();
 }
 
-RunRecord GraphSlamThread::recordNow() const {
+RunRecord GraphSlamThread::recordNow() {
+  HierarchyConfig unhurried = config_.hierarchy;
+  unhurried.budget_ms = 0.0;
+  session_->slam.setHierarchy(unhurried);
+  tell(session_->slam.finish());
+  session_->slam.setHierarchy(config_.hierarchy);
+
   RunRecord record = session_->log.record(session_->slam.snapshot());
   record.parameters = parameterList(config_);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - session_->started;

@@ -47,11 +47,15 @@ class GraphSlamThread {
   /// @param detect_ms  What it has cost.
   void setRooms(std::uint32_t session, const RoomDetection& rooms, double detect_ms);
 
+  /// From the next job on. Where the mode is another one, all that was dropped comes back.
+  void setHierarchy(const HierarchyConfig& hierarchy);
+
   /// Writes what there is into `folder`, so that it is not lost, and begins with an empty graph.
   /// @param session  The number of what begins; the first is 0.
   void startAgain(std::uint32_t session, const std::string& folder);
 
   std::future<OptimizationSummary> optimize();
+  /// After a last optimization, which takes as long as it takes.
   std::future<RunRecord> record();
 
   /// T_map_base of every scan.
@@ -69,9 +73,9 @@ class GraphSlamThread {
   std::future<Result> ask(std::function<Result()> job);
   void post(std::function<void()> job);
   void run();
-  RunRecord recordNow() const;
+  RunRecord recordNow();
 
-  const SlamConfig config_;
+  SlamConfig config_;  ///< Belongs to the thread.
   const Listener listener_;
   std::unique_ptr<Session> session_;  ///< Belongs to the thread.
 

@@ -9,6 +9,7 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr double kSphere_m = 0.25;
+constexpr double kDroppedSphere_m = 0.15;
 constexpr double kEdge_m = 0.04;
 constexpr double kLoop_m = 0.05;
 constexpr double kBoxLine_m = 0.025;
@@ -33,7 +34,7 @@ void addBox(const Eigen::Vector3d& centre_map, Marker* lines) {
 void addKeyframeMarkers(const GraphSnapshot& graph, const ShownPlaces& places,
                         const std::string& map_frame, visualization_msgs::MarkerArray* markers) {
   Marker keyframes = layer("keyframes", Marker::SPHERE_LIST, kSphere_m, colour(0, 0, 0), map_frame);
-  Marker marginalized = layer("marginalized_keyframes", Marker::SPHERE_LIST, kSphere_m,
+  Marker marginalized = layer("marginalized_keyframes", Marker::SPHERE_LIST, kDroppedSphere_m,
                               colour(0.9F, 0.1F, 0.1F), map_frame);
   Marker odometry =
       layer("odometry", Marker::LINE_LIST, kEdge_m, colour(0.4F, 0.4F, 0.4F), map_frame);

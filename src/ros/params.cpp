@@ -8,6 +8,7 @@
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "mrpt_sgraphs/slam/slam_config.h"
 
@@ -102,6 +103,9 @@ std::map<std::string, XmlRpcValue> childrenOf(const std::string& path) {
 
 ParamSection::ParamSection(const ros::NodeHandle& nh)
     : path_(nh.getNamespace()), given_(childrenOf(path_)) {}
+
+ParamSection::ParamSection(std::string path, Values given)
+    : path_(std::move(path)), given_(std::move(given)) {}
 
 XmlRpcValue* ParamSection::given(const std::string& name) {
   known_.push_back(name);

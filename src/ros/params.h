@@ -17,8 +17,12 @@ struct SlamConfig;
 /// The parameters in one namespace, read field by field.
 class ParamSection {
  public:
+  using Values = std::map<std::string, XmlRpc::XmlRpcValue>;
+
   /// @throws std::invalid_argument if the name holds a value and no parameters.
   explicit ParamSection(const ros::NodeHandle& nh);
+  /// @param path  The name that they are said to have, in full.
+  ParamSection(std::string path, Values given);
 
   /// Replaces `value` where the parameter is given; an integer will do for a double.
   /// @throws std::invalid_argument naming the parameter, its value and what it must be.
@@ -43,20 +47,23 @@ class ParamSection {
   [[noreturn]] void refuse(const std::string& name, const std::string& must_be) const;
 
   std::string path_;
-  std::map<std::string, XmlRpc::XmlRpcValue> given_;
+  Values given_;
   std::vector<std::string> known_;
 };
 
-/// Reads a config struct from the namespace of `nh`; fields not given keep their defaults.
+/// Reads a config struct from a section, such as the namespace of `nh`; fields not given keep their defaults.
 /// @throws std::invalid_argument naming the parameter, for a value of the wrong type or out of
 ///         range, and for a parameter the struct does not have (most often a misspelt one).
 template <typename Config>
-Config loadConfig(const ros::NodeHandle& nh) {
+Config loadConfig(ParamSection section) {
   Config config;
-  ParamSection section(nh);
   Config::fields(config, section);
   section.refuseUnknown();
   return config;
+}
+template <typename Config>
+Config loadConfig(const ros::NodeHandle& nh) {
+  return loadConfig<Config>(ParamSection(nh));
 }
 
 /// Every section of the pipeline below the namespace of `nh`.

@@ -8,9 +8,18 @@
 #include "mrpt_sgraphs/slam/config_file.h"
 
 namespace mrpt_sgraphs {
+namespace {
+
+/// The same input is to give the same output, however fast the machine is.
+BackEndConfig withoutWallTime(BackEndConfig config) {
+  config.hierarchy.budget_ms = 0.0;
+  return config;
+}
+
+}  // namespace
 
 BackEnd::BackEnd(const BackEndConfig& config)
-    : config_(config), graph_slam_(config), rooms_(config.room_detection) {}
+    : config_(withoutWallTime(config)), graph_slam_(config_), rooms_(config.room_detection) {}
 
 void BackEnd::addKeyframe(const Keyframe& keyframe, double segment_ms) {
   CpuStopwatch watch;

@@ -60,7 +60,8 @@ void Pipeline::add(Keyframe* keyframe) {
 
 RunRecord Pipeline::record() {
   RunRecord run = back_end_.record();
-  run.parameters = parameterList(config_);
+  const auto parameters = parameterList(config_);
+  run.parameters.insert(parameters.begin(), parameters.end());  // those of the back end are in it
   return run;
 }
 

@@ -67,7 +67,7 @@ OptimizationSummary Stages::local(LayeredGraph* graph) {
 OptimizationSummary Stages::room(RoomId room, LayeredGraph* graph) {
   if (!compresses()) return optimize("full", selectAll(*graph), 0.0, graph);
   compression_.mend(graph);
-  const OptimizationSummary summary = optimize("room_local", selectRoom(*graph, room), kLocalDecrease, graph);
+  const OptimizationSummary summary = optimizeRoom(room, graph);
   optimized_room_ = room;
   optimized_at_ = graph->size(Layer::kKeyframe);
   window_.forget();
@@ -94,16 +94,30 @@ void Stages::compress(bool changed, LayeredGraph* graph, Summaries* summaries) {
         std::chrono::steady_clock::now() - start;
     if (hierarchy_.budget_ms > 0.0 && spent.count() > hierarchy_.budget_ms) break;
     if (plan.room && !(optimized_room_ == plan.room && optimized_at_ == graph->size(Layer::kKeyframe))) {
-      summaries->push_back(optimize("room_local", selectRoom(*graph, *plan.room), kLocalDecrease, graph));
+      summaries->push_back(optimizeRoom(*plan.room, graph));
       watch.lap();
     }
-    compression_.apply(plan, graph);
-    OptimizationSummary summary = begun("condense", *graph);
-    summary.free_variables = 6 * static_cast<int>(plan.dropped.size());
-    summary.converged = true;
-    summary.total_ms = watch.lap();
-    summaries->push_back(summary);
+    summaries->push_back(condense(plan, graph));
+    summaries->back().total_ms = watch.lap();
   }
+}
+
+OptimizationSummary Stages::optimizeRoom(RoomId room, LayeredGraph* graph) {
+  OptimizationSummary summary =
+      optimize("room_local", selectRoom(*graph, room), kLocalDecrease, graph);
+  summary.room = room;
+  return summary;
+}
+
+OptimizationSummary Stages::condense(const RegionPlan& plan, LayeredGraph* graph) {
+  const std::size_t dropped_before = compression_.followers().count();
+  compression_.apply(plan, graph);
+  OptimizationSummary summary = begun("condense", *graph);
+  summary.room = plan.room;
+  summary.dropped = summary.keyframes_marginalized - static_cast<int>(dropped_before);
+  summary.free_variables = 6 * static_cast<int>(plan.dropped.size());
+  summary.converged = true;
+  return summary;
 }
 
 void Stages::finish(LayeredGraph* graph, Summaries* summaries) {

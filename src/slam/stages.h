@@ -41,6 +41,8 @@ class Stages {
  private:
   OptimizationSummary optimize(const char* kind, const Selection& selection,
                                double min_relative_decrease, LayeredGraph* graph);
+  OptimizationSummary optimizeRoom(RoomId room, LayeredGraph* graph);
+  OptimizationSummary condense(const RegionPlan& plan, LayeredGraph* graph);
   OptimizationSummary begun(const char* kind, const LayeredGraph& graph) const;
 
   const HierarchyConfig hierarchy_;

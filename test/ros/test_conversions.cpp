@@ -198,6 +198,18 @@ TEST(Conversions, TheGraphHasItsWallsItsFloorsAndFactorsOfAllTypes) {
   EXPECT_EQ(msg.factors[5].layers[1], std::uint8_t{GraphFactor::FLOOR});
 }
 
+TEST(Conversions, ReportsNameTheRoomWhereThereIsOne) {
+  OptimizationSummary summary;
+  summary.kind = "condense";
+  summary.dropped = 3;
+  EXPECT_EQ(toMsg(summary, "map").room, OptimizationReport::NONE);
+  summary.room = RoomId{0};
+  const OptimizationReport msg = toMsg(summary, "map");
+  EXPECT_EQ(msg.room, 0);
+  EXPECT_EQ(msg.kind, "condense");
+  EXPECT_EQ(msg.dropped, 3);
+}
+
 ObservedPlane somePlane(double x) {
   test::RandomGeometry random(static_cast<unsigned>(x));
   ObservedPlane plane;

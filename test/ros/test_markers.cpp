@@ -223,6 +223,7 @@ TEST(Markers, ShowMarginalizedKeyframesInRed) {
   EXPECT_EQ(kept.color.r + kept.color.g + kept.color.b, 0.0F);
   EXPECT_GT(dropped.color.r, 0.8F);
   EXPECT_LT(dropped.color.g + dropped.color.b, 0.4F);
+  EXPECT_LT(dropped.scale.x, 0.8 * kept.scale.x);
 }
 
 TEST(Markers, BoxTheKeyframesOfTheLastOptimization) {

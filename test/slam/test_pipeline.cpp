@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <sstream>
 
 #include "mrpt_sgraphs/io/exports.h"
@@ -80,7 +81,9 @@ TEST_F(PipelineInABuilding, RecordsEveryScan) {
     keyframes += report.keyframe ? 1 : 0;
   }
   EXPECT_EQ(keyframes, record_->graph->keyframes.size());
-  EXPECT_EQ(record_->parameters, parameterList(SlamConfig{}));
+  SlamConfig used;
+  used.hierarchy.budget_ms = 0.0;
+  EXPECT_EQ(record_->parameters, parameterList(used));
 }
 
 TEST_F(PipelineInABuilding, FollowsTheWalk) {
@@ -104,8 +107,36 @@ TEST_F(PipelineInABuilding, TrajectoryGoesThroughTheKeyframes) {
   }
 }
 
+TEST_F(PipelineInABuilding, SaysOfEveryRoomWhatWasDroppedThere) {
+  int dropped = 0;
+  std::set<RoomId> rooms;
+  for (const OptimizationSummary& summary : record_->optimizations) {
+    SCOPED_TRACE(summary.kind);
+    if (summary.kind == "room_local") EXPECT_TRUE(summary.room);
+    if (summary.kind != "condense") {
+      EXPECT_EQ(summary.dropped, 0);
+      continue;
+    }
+    dropped += summary.dropped;
+    EXPECT_EQ(dropped, summary.keyframes_marginalized);
+    if (summary.room) rooms.insert(*summary.room);
+  }
+  EXPECT_GT(dropped, 0);
+  std::set<RoomId> rooms_of_dropped;
+  int marginalized = 0;
+  for (const KeyframeNode& keyframe : record_->graph->keyframes) {
+    if (!keyframe.marginalized) continue;
+    ++marginalized;
+    if (keyframe.room) rooms_of_dropped.insert(*keyframe.room);
+  }
+  EXPECT_EQ(dropped, marginalized);
+  EXPECT_EQ(rooms, rooms_of_dropped);
+}
+
 TEST_F(PipelineInABuilding, SameInputSameOutput) {
-  const RunRecord again = play(*run_, SlamConfig{});
+  SlamConfig in_a_hurry;
+  in_a_hurry.hierarchy.budget_ms = 1e-3;  // which is for those who cannot wait
+  const RunRecord again = play(*run_, in_a_hurry);
   ASSERT_EQ(again.trajectory.size(), record_->trajectory.size());
   for (std::size_t k = 0; k < again.trajectory.size(); ++k) {
     ASSERT_EQ(again.odometry[k].T_world_body.matrix(), record_->odometry[k].T_world_body.matrix());

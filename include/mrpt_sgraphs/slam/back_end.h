@@ -13,7 +13,8 @@ namespace mrpt_sgraphs {
 
 /// What comes after the front end, on the caller's thread: each keyframe goes into the graph, and
 /// then floors and rooms are looked for in it. The same input gives the same output, whether it
-/// comes from the front end itself or from a recording of it.
+/// comes from the front end itself or from a recording of it: its budgets are iterations, and none
+/// is wall time.
 class BackEnd {
  public:
   explicit BackEnd(const BackEndConfig& config);

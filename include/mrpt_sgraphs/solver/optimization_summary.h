@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "mrpt_sgraphs/geometry/keyframe_runs.h"
@@ -11,10 +12,14 @@ namespace mrpt_sgraphs {
 /// What one optimization did, a row of optimizations.csv.
 struct OptimizationSummary {
   double stamp_s = 0.0;   ///< Of the newest keyframe in it.
-  std::string kind;       ///< room_local | local | global | full
-  std::string mode;       ///< baseline | paper | condensed
+  /// local | room_local | floor_local | global | full, and what comes with them: condense (keyframes
+  /// are dropped), resolve (dropped keyframes are found again).
+  std::string kind;
+  std::string mode;            ///< baseline | paper | condensed
+  std::optional<RoomId> room;  ///< Of room_local, and of condense where it is in a room.
   int keyframes_active = 0;
   int keyframes_marginalized = 0;
+  int dropped = 0;  ///< Of these, by this condense.
   int walls = 0;
   int rooms = 0;
   int floors = 0;
