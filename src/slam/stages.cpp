@@ -70,7 +70,6 @@ OptimizationSummary Stages::room(RoomId room, LayeredGraph* graph) {
   const OptimizationSummary summary = optimizeRoom(room, graph);
   optimized_room_ = room;
   optimized_at_ = graph->size(Layer::kKeyframe);
-  window_.forget();
   return summary;
 }
 
@@ -105,6 +104,7 @@ void Stages::compress(bool changed, LayeredGraph* graph, Summaries* summaries) {
 OptimizationSummary Stages::optimizeRoom(RoomId room, LayeredGraph* graph) {
   OptimizationSummary summary =
       optimize("room_local", selectRoom(*graph, room), kLocalDecrease, graph);
+  window_.forget();  // what lies behind it may have moved
   summary.room = room;
   return summary;
 }
