@@ -127,14 +127,14 @@ def rows_of(walk, run):
 def shown(name, row):
     texts = {column: "-" if row[column] is None else f"{row[column]:.{digits}f}"
              for column, digits in COLUMNS.items()}
-    return {"": name, " ": "", **texts}
+    return {"": name, **texts}
 
 
 def ratios(above, below):
     row = {column: above[column] / below[column]
            if above[column] is not None and below[column] else None for column in COLUMNS}
     texts = {column: "-" if value is None else f"{value:.2f}" for column, value in row.items()}
-    return {"": "10th/2nd", " ": "", **texts, "until": "-"}
+    return {"": "10th/2nd", **texts, "until": "-"}
 
 
 def print_table(walk, rows):
@@ -142,7 +142,7 @@ def print_table(walk, rows):
              for k, row in enumerate(rows)]
     if walk.keyframes is None and len(rows) > TENTH:
         lines.append(ratios(rows[TENTH], rows[SECOND]))
-    print_columns(["", " ", *COLUMNS], lines)
+    print_columns(["", *COLUMNS], lines)
 
 
 def print_quality(run):

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -28,6 +29,25 @@ std::vector<const Factor*> factorsOf(const GraphSnapshot& graph) {
   std::vector<const Factor*> factors;
   for (const StoredFactor& stored : graph.factors) factors.push_back(stored.factor.get());
   return factors;
+}
+
+/// Files that were written before there was a shelf have stand-ins alone.
+void requireShelf(const GraphSnapshot& graph) {
+  std::set<KeyframeId> kept;
+  for (const ShelvedFactor& shelved : graph.shelved) {
+    if (shelved.kept) kept.insert(*shelved.kept);
+  }
+  for (const StoredFactor& stored : graph.factors) {
+    const auto* const condensed = dynamic_cast<const CondensedFactor*>(stored.factor.get());
+    const bool is_here = condensed != nullptr
+                             ? kept.count(condensed->kept()) != 0
+                             : !isStandIn(*stored.factor) || !graph.shelved.empty();
+    if (is_here) continue;
+    throw std::runtime_error(
+        "the graph lacks the factors that others stand for: nothing tells what "
+        "the one of " +
+        nameOf(stored.factor->node(0)) + " was made of");
+  }
 }
 
 /// The one that is fixed, and that errors are relative to.
@@ -92,6 +112,7 @@ NormalizedErrors summary(int dof, const std::vector<double>& values) {
 }  // namespace
 
 std::vector<const Factor*> originalFactors(const GraphSnapshot& graph) {
+  requireShelf(graph);
   std::vector<const Factor*> factors;
   for (const StoredFactor& stored : graph.factors) {
     if (!isStandIn(*stored.factor)) factors.push_back(stored.factor.get());

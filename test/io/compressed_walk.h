@@ -55,7 +55,8 @@ class CompressedWalk {
   /// The factors that touch a keyframe that is to drop.
   std::vector<FactorId> factorsOfDropped() const {
     std::vector<FactorId> ids;
-    for (const StoredFactor& stored : graph.snapshot()->factors) {
+    const GraphSnapshotConstPtr snapshot = graph.snapshot();
+    for (const StoredFactor& stored : snapshot->factors) {
       for (int k = 0; k < stored.factor->nodeCount(); ++k) {
         const NodeId node = stored.factor->node(k);
         if (node.layer != Layer::kKeyframe || node.value < 2 || node.value > 4) continue;

@@ -199,7 +199,8 @@ TEST(Consistency, WhatAllRoomsLeaveOpenIsNoLoss) {
 TEST(Consistency, SummedInformationIsOverconfident) {
   CompressedWalk walk(false);
   LayeredGraph& graph = walk.graph;
-  for (const StoredFactor& stored : graph.snapshot()->factors) graph.eraseFactor(stored.id);
+  const GraphSnapshotConstPtr before = graph.snapshot();
+  for (const StoredFactor& stored : before->factors) graph.eraseFactor(stored.id);
   Matrix6 step = Matrix6::Identity();
   step.diagonal().tail<3>().setConstant(1e10);
   const auto edge = [&](uint64_t from, uint64_t to, const Matrix6& information, Kind kind) {
@@ -244,6 +245,19 @@ TEST(Consistency, StandInsAreNotCountedTwice) {
   EXPECT_TRUE(has(true_loop));
   EXPECT_FALSE(has(transferred));
   EXPECT_FALSE(has(earlier_transferred));
+}
+
+TEST(Consistency, WithoutTheShelfThereIsNothingToCompareWith) {
+  CompressedWalk walk;
+  walk.condense();
+  const GraphSnapshotConstPtr before = walk.graph.snapshot();
+  for (const ShelvedFactor& shelved : before->shelved) {
+    walk.graph.eraseFactor(shelved.id);
+  }
+  EXPECT_THROW(compareWithOriginal(*walk.graph.snapshot()), std::runtime_error);
+  CompressedWalk bridged;
+  bridged.addRelative(1, 5, Kind::kBridge);
+  EXPECT_THROW(originalFactors(*bridged.graph.snapshot()), std::runtime_error);
 }
 
 TEST(Consistency, WallsThatOnlyDroppedKeyframesSawAreNamed) {
@@ -312,7 +326,8 @@ TEST_F(PoseConsistencyTest, IsTheDegreesOfFreedomWhereCovariancesAreRight) {
 }
 
 TEST_F(PoseConsistencyTest, GrowsWithOverconfidence) {
-  for (const StoredFactor& stored : graph_.snapshot()->factors) {
+  const GraphSnapshotConstPtr before = graph_.snapshot();
+  for (const StoredFactor& stored : before->factors) {
     const auto& edge = dynamic_cast<const RelativePoseFactor&>(*stored.factor);
     graph_.replaceFactor(
         stored.id, std::make_shared<RelativePoseFactor>(edge.node(0), edge.node(1), edge.T_from_to,

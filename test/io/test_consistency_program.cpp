@@ -23,7 +23,8 @@ class ConsistencyProgramTest : public ::testing::Test {
   ConsistencyProgramTest() {
     test::CompressedWalk walk;
     Trajectory truth;
-    for (const KeyframeNode& keyframe : walk.graph.snapshot()->keyframes) {
+    const GraphSnapshotConstPtr graph = walk.graph.snapshot();
+    for (const KeyframeNode& keyframe : graph->keyframes) {
       truth.push_back({keyframe.stamp_s, keyframe.T_map_base});
     }
     writeTum(folder_.file("truth.tum"), truth);

@@ -14,6 +14,7 @@ namespace mrpt_sgraphs {
 /// The factors of the graph as if nothing had ever been compressed: all that are shelved, and the
 /// others but those that stand for them, which are condensed factors and bridges. A stand-in can be
 /// on the shelf itself, for another one: it is left out as well.
+/// @throws std::runtime_error if what a factor stands for is not on the shelf.
 std::vector<const Factor*> originalFactors(const GraphSnapshot& graph);
 
 /// How big a graph is to a solver.
@@ -36,7 +37,7 @@ struct CompressionReport {
 /// Compares the graph's factors with originalFactors, both linearized at the graph's values, on
 /// what both have: active keyframes, walls, rooms and floors, the first active keyframe being
 /// fixed. Takes the third power of that many tangents in time, and the square in memory.
-/// @throws std::runtime_error if no keyframe is active.
+/// @throws std::runtime_error as originalFactors does, and if no keyframe is active.
 CompressionReport compareWithOriginal(const GraphSnapshot& graph);
 
 /// A squared error over its covariance, of many keyframes: as large as its degrees of freedom on
