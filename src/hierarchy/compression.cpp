@@ -275,7 +275,16 @@ void Compression::restore(LayeredGraph* graph) {
   std::vector<FactorId> shelved;
   for (const ShelvedFactor& factor : graph->snapshot()->shelved) shelved.push_back(factor.id);
   std::sort(shelved.begin(), shelved.end());
-  for (const FactorId id : shelved) graph->unshelve(id);
+  for (const FactorId id : shelved) {
+    const RelativePoseFactor* const edge = keyframeEdge(*graph->factor(id));
+    if (edge != nullptr && edge->kind == RelativePoseFactor::Kind::kBridge) {
+      graph->eraseFactor(id);  // what it stands for is there as well
+    } else {
+      graph->unshelve(id);
+    }
+  }
+  const std::set<KeyframeId> broken = graph->brokenShelves();
+  for (const KeyframeId kept : broken) graph->setMended(kept);
   active_.clear();
   for (uint32_t slot = 0; slot < graph->size(Layer::kKeyframe); ++slot) {
     const KeyframeId id{graph->nodeAt({Layer::kKeyframe, slot}).value};

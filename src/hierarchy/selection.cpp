@@ -13,11 +13,6 @@ namespace {
 
 constexpr Layer kLayers[] = {Layer::kKeyframe, Layer::kWall, Layer::kRoom, Layer::kFloor};
 
-bool isDropped(const LayeredGraph& graph, NodeHandle node) {
-  return node.layer == Layer::kKeyframe &&
-         graph.attributes(KeyframeId{graph.nodeAt(node).value}).marginalized;
-}
-
 void addSeen(const LayeredGraph& graph, NodeHandle keyframe, Layer layer, NodeSet* nodes) {
   for (const FactorLink& link : graph.topology().sightings(keyframe)) {
     const NodeHandle surface = graph.topology().ends(link.slot)[1].node;
@@ -59,6 +54,7 @@ Selection completed(const LayeredGraph& graph, const NodeSet& free) {
   }
   Selection selection;
   for (const NodeHandle node : free.nodes()) {
+    if (topology.linkCount(node) == 0) continue;  // nothing is known of it
     // the first keyframe of all stays in any case, so that the map does
     const bool stays = first && node == *first && (!is_held || node.slot == 0);
     (stays ? selection.fixed : selection.free).push_back(graph.nodeAt(node));
@@ -74,7 +70,7 @@ Selection selectAll(const LayeredGraph& graph) {
   for (const Layer layer : kLayers) {
     for (uint32_t slot = 0; slot < graph.size(layer); ++slot) {
       const NodeHandle node{layer, slot};
-      if (graph.topology().linkCount(node) == 0 || isDropped(graph, node)) continue;
+      if (graph.topology().linkCount(node) == 0) continue;
       const bool first_keyframe = layer == Layer::kKeyframe && slot == 0;
       (first_keyframe ? all.fixed : all.free).push_back(graph.nodeAt(node));
     }
@@ -129,7 +125,7 @@ Selection selectFloor(const LayeredGraph& graph, FloorId floor) {
   for (const Layer layer : kLayers) {
     for (uint32_t slot = 0; slot < graph.size(layer); ++slot) {
       const NodeHandle node{layer, slot};
-      if (graph.topology().linkCount(node) == 0 || isDropped(graph, node)) continue;
+      if (graph.topology().linkCount(node) == 0) continue;
       const NodeId id = graph.nodeAt(node);
       const bool is_on = layer == Layer::kKeyframe
                              ? graph.attributes(KeyframeId{id.value}).floor == floor

@@ -145,7 +145,7 @@ TEST_F(CompressionTest, AnotherVisitFoldsIntoTheSameFactor) {
   full_.optimize();
   optimize(&compression_, &lab_.graph);
   compression_.resolve(exact(), &lab_.graph);
-  expectAsFull(5e-3);
+  expectAsFull(0.011);
 }
 
 TEST_F(CompressionTest, AnEdgeBetweenRoomsIsTransferred) {
@@ -169,7 +169,7 @@ TEST_F(CompressionTest, AnEdgeBetweenRoomsIsTransferred) {
   EXPECT_LE(bridges, 1);
   optimize(&compression_, &lab_.graph);
   compression_.resolve(exact(), &lab_.graph);
-  expectAsFull(5e-3);
+  expectAsFull(0.011);
 }
 
 TEST_F(CompressionTest, WhatIsErasedLaterIsTakenOut) {

@@ -25,6 +25,9 @@ TEST(SelectRoom, FreesWhatIsInTheRoomAndHoldsWhatIsAroundIt) {
   StoreyLab lab;
   lab.tour();
   const KeyframeId outside = lab.keyframes[StoreyLab::kCorridor][3];
+  lab.graph.addFactor(std::make_shared<RelativePoseFactor>(
+      lab.keyframes[StoreyLab::kFirst].front(), lab.rooms[StoreyLab::kFirst], Pose::Identity(),
+      Matrix6::Identity(), RelativePoseFactor::Kind::kRoom));
   lab.graph.addFactor(std::make_shared<PlaneObservationFactor>(  // through the door
       outside, lab.walls[StoreyLab::kFirst][3], Plane{}, Eigen::Matrix3d::Identity()));
 
@@ -136,9 +139,12 @@ TEST(SelectAll, LeavesOutWhatIsDroppedAndWhatNothingHolds) {
   lab.tour();
   const WallId lonely = lab.graph.addWall(Plane{}, {});
   const KeyframeId dropped = lab.keyframes[StoreyLab::kFirst][4];
-  KeyframeAttributes attributes = lab.graph.attributes(dropped);
-  attributes.marginalized = true;
-  lab.graph.setAttributes(dropped, attributes);
+  while (!lab.graph.sightingsOf(dropped).empty()) {
+    lab.graph.shelve(lab.graph.sightingsOf(dropped).back().id, KeyframeId{0});
+  }
+  while (!lab.graph.otherFactorsOf(dropped).empty()) {
+    lab.graph.shelve(lab.graph.otherFactorsOf(dropped).back().id, KeyframeId{0});
+  }
   const Selection all = selectAll(lab.graph);
   EXPECT_EQ(all.fixed, std::vector<NodeId>{KeyframeId{0}});
   const Nodes free = setOf(all.free);

@@ -61,7 +61,9 @@ TEST(GraphSlamSurfaces, WallsHoldTheTrajectory) {
     };
     worst_m = std::max(worst_m, error_m(keyframe.T_map_base));
     worst_odometry_m = std::max(worst_odometry_m, error_m(keyframe.T_odom_base));
-    EXPECT_EQ(keyframe.planes, walk[k].planes);
+    // let go of where another keyframe shows the place
+    EXPECT_TRUE(keyframe.planes == walk[k].planes ||
+                (keyframe.marginalized && keyframe.planes == nullptr));
   }
   EXPECT_GT(worst_odometry_m, 0.2);
   EXPECT_LT(worst_m, 0.06);
@@ -84,6 +86,7 @@ TEST(GraphSlamSurfaces, CanBeSwitchedOff) {
   GraphSlamConfig config = withoutLoops();
   config.walls.enabled = false;
   config.ground.enabled = false;
+  config.hierarchy.mode = "baseline";
   GraphSlam slam(config);
   for (const Keyframe& keyframe : keyframes()) {
     EXPECT_TRUE(slam.addKeyframe(keyframe).optimizations.empty());

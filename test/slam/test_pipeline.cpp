@@ -102,8 +102,11 @@ TEST_F(PipelineInABuilding, TrajectoryGoesThroughTheKeyframes) {
     ASSERT_EQ(record_->trajectory[scan].stamp_s, keyframe.stamp_s);
     const Pose& T_map_base = record_->trajectory[scan].T_world_body;
     EXPECT_LT(local(T_map_base, keyframe.T_map_base).norm(), 1e-6);
-    ASSERT_NE(keyframe.cloud, nullptr);
-    EXPECT_EQ(keyframe.cloud->header.frame_id, "base_link");
+    if (keyframe.cloud == nullptr) {  // another one shows the place
+      EXPECT_TRUE(keyframe.marginalized);
+    } else {
+      EXPECT_EQ(keyframe.cloud->header.frame_id, "base_link");
+    }
   }
 }
 

@@ -26,8 +26,8 @@ struct Selection {
   std::vector<SummedObservationsFactor> sums;
 };
 
-/// All that takes part; the first keyframe stays, so that the map does. Dropped keyframes and what
-/// no factor holds take no part.
+/// All that takes part; the first keyframe stays, so that the map does. What no factor holds, dropped
+/// keyframes too, takes no part, in no selection.
 Selection selectAll(const LayeredGraph& graph);
 
 /// The room-local stage (Sec. III-A): free are the keyframes within the room, the walls that they see
