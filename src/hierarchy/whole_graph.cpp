@@ -62,9 +62,11 @@ class WholeGraph {
       resolve();
       if (is_paper_) break;
       const double before = std::exchange(cost, full_cost_.of(graph_));
-      const bool is_same = std::abs(cost - report_.condensed_cost) <= kSameCost * cost;
-      const bool is_still = report_.rounds > 1 && std::abs(cost - before) <= kSameCost * cost;
-      if (is_same || is_still || !global.problem.empty()) break;
+      // in the first round they may agree by chance: how far it went tells nothing yet
+      const bool is_done = report_.rounds > 1 &&
+                           (std::abs(cost - report_.condensed_cost) <= kSameCost * cost ||
+                            std::abs(cost - before) <= kSameCost * cost);
+      if (is_done || !global.problem.empty()) break;
       if (report_.rounds == kMostRounds) {
         global.converged = false;
         global.problem = "condensed so often that it should have been enough";
