@@ -27,8 +27,7 @@ bool isJson(const std::string& path) {
 
 class CompressedGraph final : public OptimizableGraph {
  public:
-  CompressedGraph(const std::string& path, std::string mode)
-      : path_(path), mode_(std::move(mode)) {
+  CompressedGraph(const std::string& path, std::string mode) : path_(path), mode_(std::move(mode)) {
     if (!isJson(path)) file_ = readSg(path);
     reset();
     counts_ = {graph_.size(Layer::kKeyframe), graph_.size(Layer::kWall), graph_.factorCount(), {}};

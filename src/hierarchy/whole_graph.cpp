@@ -9,13 +9,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "graph_values.h"
 #include "mrpt_sgraphs/factors/condensed.h"
 #include "mrpt_sgraphs/geometry/cpu_time.h"
 #include "mrpt_sgraphs/hierarchy/compression.h"
 #include "mrpt_sgraphs/hierarchy/optimize_selection.h"
 #include "mrpt_sgraphs/hierarchy/put_together.h"
 #include "mrpt_sgraphs/hierarchy/whole_graph_regions.h"
-#include "graph_values.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -30,8 +30,8 @@ constexpr int kMostRounds = 10;
 
 HierarchyConfig configOf(const std::string& mode) {
   if (mode != "paper" && mode != "condensed") {
-    throw std::invalid_argument("the whole graph is compressed in mode 'paper' or 'condensed', not '" +
-                                mode + "'");
+    throw std::invalid_argument(
+        "the whole graph is compressed in mode 'paper' or 'condensed', not '" + mode + "'");
   }
   HierarchyConfig config;
   config.mode = mode;
@@ -62,9 +62,11 @@ class WholeGraph {
       resolve();
       if (is_paper_) break;
       const double before = std::exchange(cost, full_cost_.of(graph_));
-      const bool is_same = std::abs(cost - report_.condensed_cost) <= kSameCost * cost;
-      const bool is_still = report_.rounds > 1 && std::abs(cost - before) <= kSameCost * cost;
-      if (is_same || is_still || !global.problem.empty()) break;
+      // in the first round they may agree by chance: how far it went tells nothing yet
+      const bool is_done = report_.rounds > 1 &&
+                           (std::abs(cost - report_.condensed_cost) <= kSameCost * cost ||
+                            std::abs(cost - before) <= kSameCost * cost);
+      if (is_done || !global.problem.empty()) break;
       if (report_.rounds == kMostRounds) {
         global.converged = false;
         global.problem = "condensed so often that it should have been enough";
@@ -81,13 +83,12 @@ class WholeGraph {
   void compress() {
     const Values before(graph_);
     CpuStopwatch watch;
-    const Plans plans = is_paper_ ? planWholeGraphByTheLetter(graph_)
-                                  : planWholeGraph(graph_, kLongestStretch);
+    const Plans plans =
+        is_paper_ ? planWholeGraphByTheLetter(graph_) : planWholeGraph(graph_, kLongestStretch);
     report_.plan_ms = watch.lap();
     for (auto first = plans.begin(); first != plans.end();) {
-      const auto last = std::find_if(first, plans.end(), [&](const RegionPlan& plan) {
-        return plan.kept != first->kept;
-      });
+      const auto last = std::find_if(
+          first, plans.end(), [&](const RegionPlan& plan) { return plan.kept != first->kept; });
       optimizeRegion(first, last, before);
       report_.room_local_ms += watch.lap();
       for (auto visit = first; visit != last; ++visit) {
@@ -133,24 +134,24 @@ class WholeGraph {
       factors.push_back(sameLevel(*visit));
     }
     const NodeId kept = first->kept;
-    optimizeUnder(factors, [&](NodeId node) { return node != kept; }, rough_config_, &graph_);
+    optimizeUnder(
+        factors, [&](NodeId node) { return node != kept; }, rough_config_, &graph_);
   }
 
-  /// Walls tell how a later stay lies to the first, all but its height: tilted by no more than noise
-  /// they put it metres off, and all lever arms with it. Only for the values that factors are
+  /// Walls tell how a later stay lies to the first, all but its height: tilted by no more than
+  /// noise they put it metres off, and all lever arms with it. Only for the values that factors are
   /// linearized at, not among what is condensed.
   static FactorConstPtr sameLevel(const RegionPlan& visit) {
     constexpr double kSigma_m = 0.1;
     Matrix6 information = Matrix6::Zero();
     information(2, 2) = 1.0 / (kSigma_m * kSigma_m);
-    return std::make_shared<RelativePoseFactor>(visit.kept, visit.dropped.front(),
-                                                Pose::Identity(), information);
+    return std::make_shared<RelativePoseFactor>(visit.kept, visit.dropped.front(), Pose::Identity(),
+                                                information);
   }
 
   /// A later stay as if it had begun where the first did.
   void bringToTheFirst(const RegionPlan& visit) {
-    const Pose motion =
-        graph_.pose(visit.kept) * graph_.pose(visit.dropped.front()).inverse();
+    const Pose motion = graph_.pose(visit.kept) * graph_.pose(visit.dropped.front()).inverse();
     for (const auto* const keyframes : {&visit.dropped, &visit.stay}) {
       for (const KeyframeId id : *keyframes) {
         if (id != visit.kept) graph_.setPose(id, orthonormalized(motion * graph_.pose(id)));

@@ -112,9 +112,9 @@ class Planner {
       std::optional<Slot> kept;
       for (auto first = region.slots.begin(); first != region.slots.end();) {
         // a stay in a room, or on the way what lies between two keyframes that remain
-        const auto last = std::adjacent_find(
-            first, region.slots.end(),
-            [&](Slot a, Slot b) { return b != a + 1 || (!region.room && stays_[b]); });
+        const auto last = std::adjacent_find(first, region.slots.end(), [&](Slot a, Slot b) {
+          return b != a + 1 || (!region.room && stays_[b]);
+        });
         const auto end = last == region.slots.end() ? last : std::next(last);
         if (!kept || !region.room) kept = *first;
         RegionPlan plan = planOfStay(*first, *std::prev(end));

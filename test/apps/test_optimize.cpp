@@ -106,7 +106,7 @@ TEST_F(OptimizeTest, StopsWhereItIsTold) {
   EXPECT_LE(json.at("iterations"), 1);
 }
 
-/// Twelve keyframes a metre apart, the fourth to the ninth in a room of which they see two walls; the
+/// Twelve keyframes a metre apart, the fourth to the ninth in a room of which they see the walls. The
 /// odometry says 1.02 m, so that walls and odometry have to agree on something.
 std::string walkThroughARoom() {
   std::string text =
@@ -123,7 +123,7 @@ std::string walkThroughARoom() {
     if (!inside) continue;
     for (const int wall : {0, 2}) {
       const double distance_m = wall == 0 ? 12.0 - k : 2.0 + k;
-      text += "OBS " + id + " " + std::to_string(wall) + (wall == 0 ? " 1 0 0 " : " -1 0 0 ") +
+      text += "OBS " + id + (wall == 0 ? " 0 1 0 0 " : " 2 -1 0 0 ") +
               std::to_string(distance_m) + " 0.01 0.02\n";
     }
     text += "OBS " + id + " 1 0 1 0 2 0.01 0.02\nOBS " + id + " 3 0 -1 0 2 0.01 0.02\n";

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mrpt_sgraphs/hierarchy/whole_graph.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "mrpt_sgraphs/factors/condensed.h"
 #include "mrpt_sgraphs/factors/prior.h"
 #include "mrpt_sgraphs/hierarchy/put_together.h"
+#include "mrpt_sgraphs/hierarchy/whole_graph.h"
 #include "mrpt_sgraphs/hierarchy/whole_graph_regions.h"
 #include "support/storey_lab.h"
 
@@ -59,12 +58,14 @@ class WholeGraphTest : public ::testing::Test {
 
   void expectTheFullOptimum() const {
     for (uint64_t k = 0; k < lab_.truth.size(); ++k) {
-      const Pose difference = full_.graph.pose(KeyframeId{k}).inverse() * lab_.graph.pose(KeyframeId{k});
+      const Pose difference =
+          full_.graph.pose(KeyframeId{k}).inverse() * lab_.graph.pose(KeyframeId{k});
       EXPECT_LT(logPose(difference).norm(), 1e-4) << k;
     }
     for (const auto& walls : lab_.walls) {
       for (const WallId wall : walls) {
-        EXPECT_LT(local(full_.graph.plane(wall), lab_.graph.plane(wall)).norm(), 1e-4) << wall.value;
+        EXPECT_LT(local(full_.graph.plane(wall), lab_.graph.plane(wall)).norm(), 1e-4)
+            << wall.value;
       }
     }
   }
@@ -79,8 +80,8 @@ class WholeGraphTest : public ::testing::Test {
       const NodeHandle second = lab.graph.handle(surface);
       const Pose pose = isPlane(surface.layer) ? Pose::Identity() : lab.graph.pose(second);
       const Plane plane = isPlane(surface.layer) ? lab.graph.plane(second) : Plane{};
-      const VariableView values[] = {first, isPlane(surface.layer) ? VariableView(plane)
-                                                                   : VariableView(pose)};
+      const VariableView values[] = {
+          first, isPlane(surface.layer) ? VariableView(plane) : VariableView(pose)};
       cost += factor.cost(values);
     }
     return cost;
@@ -184,8 +185,8 @@ TEST_F(WholeGraphTest, OfEachFactorBetweenRegionsOneEndStays) {
 
 TEST_F(WholeGraphTest, WhatIsHeldByTheMapStays) {
   const KeyframeId held = lab_.keyframes[StoreyLab::kFirst][4];
-  lab_.graph.addFactor(std::make_shared<PosePriorFactor>(held, lab_.graph.pose(held),
-                                                         Matrix6::Identity()));
+  lab_.graph.addFactor(
+      std::make_shared<PosePriorFactor>(held, lab_.graph.pose(held), Matrix6::Identity()));
   for (const RegionPlan& plan : planWholeGraph(lab_.graph, 20)) {
     EXPECT_EQ(std::count(plan.dropped.begin(), plan.dropped.end(), held), 0);
   }
@@ -208,7 +209,9 @@ TEST(PutTogether, FollowsEdgesAndCondensedFactors) {
                                              Eigen::VectorXd::Zero(9), 0.0};
   // the kept one is reached by the other
   graph.addFactor(std::make_shared<CondensedFactor>(
-      c, std::vector<CondensedFactor::Other>{{b, T_b_c.inverse()}, {wall, inverseTimes(T_b_c, wall_b)}},
+      c,
+      std::vector<CondensedFactor::Other>{{b, T_b_c.inverse()},
+                                          {wall, inverseTimes(T_b_c, wall_b)}},
       quadratic));
 
   putTogether(&graph);

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mrpt_sgraphs/io/file_layers.h"
-
 #include <gtest/gtest.h>
 
 #include "graph_files.h"
+#include "mrpt_sgraphs/io/file_layers.h"
 
 namespace mrpt_sgraphs::test {
 namespace {

@@ -15,18 +15,18 @@ namespace mrpt_sgraphs {
 struct WholeGraphReport {
   /// Iterations and times of the global optimizations; costs are those of the full graph.
   OptimizerReport global;
-  int rounds = 0;                 ///< Of condensing, global and resolving.
+  int rounds = 0;  ///< Of condensing, global and resolving.
   double plan_ms = 0.0;
   double room_local_ms = 0.0;
-  double condense_ms = 0.0;       ///< All rounds, with taking the keyframes out of the graph.
-  double global_ms = 0.0;         ///< All rounds, with making the problem.
-  double first_global_ms = 0.0;   ///< Of the first round alone.
+  double condense_ms = 0.0;      ///< All rounds, with taking the keyframes out of the graph.
+  double global_ms = 0.0;        ///< All rounds, with making the problem.
+  double first_global_ms = 0.0;  ///< Of the first round alone.
   double resolve_ms = 0.0;
-  std::vector<double> visit_ms;   ///< To condense each stay in a room.
-  std::size_t dropped = 0;        ///< Keyframes.
-  std::size_t active = 0;         ///< Keyframes that are left.
-  std::size_t condensed = 0;      ///< Condensed factors, or the paper's bridges.
-  double condensed_cost = 0.0;    ///< Of the graph that is left, at its optimum.
+  std::vector<double> visit_ms;  ///< To condense each stay in a room.
+  std::size_t dropped = 0;       ///< Keyframes.
+  std::size_t active = 0;        ///< Keyframes that are left.
+  std::size_t condensed = 0;     ///< Condensed factors, or the paper's bridges.
+  double condensed_cost = 0.0;   ///< Of the graph that is left, at its optimum.
 };
 
 /// The hierarchy's stages on a graph that is there all at once, as one from a file: room-local

@@ -10,8 +10,9 @@
 
 namespace mrpt_sgraphs {
 
-/// What is compressed at a time where the whole graph is there at once: each stay in a region, in the
-/// order in which they came, those of one region one after another and with the same kept keyframe.
+/// What is compressed at a time where the whole graph is there at once: each stay in a region, in
+/// the order in which they came, those of one region one after another and with the same kept
+/// keyframe.
 ///
 /// As planRegions, but no keyframe is too new, and nothing is given up: of every factor between
 /// keyframes of two regions one end stays. What no room is around is cut by the way that the robot
