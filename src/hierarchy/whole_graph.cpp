@@ -3,6 +3,7 @@
 
 #include "mrpt_sgraphs/hierarchy/whole_graph.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "graph_values.h"
+#include "mrpt_sgraphs/factors/plane_observation.h"
 #include "mrpt_sgraphs/factors/condensed.h"
 #include "mrpt_sgraphs/geometry/cpu_time.h"
 #include "mrpt_sgraphs/hierarchy/compression.h"
@@ -149,9 +151,36 @@ class WholeGraph {
                                                 information);
   }
 
-  /// A later stay as if it had begun where the first did.
+  /// How a stay has to be turned for its walls to lie as the graph has them; identity where too few
+  /// directions are seen.
+  Eigen::Matrix3d turnOntoWalls(const RegionPlan& visit) const {
+    constexpr double kLeast = 1e-3;  // of the second direction, in proportion to the first
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (const KeyframeId id : visit.dropped) {
+      for (const FactorLink& link : graph_.sightingsOf(id)) {
+        const auto* seen =
+            dynamic_cast<const PlaneObservationFactor*>(graph_.factor(link.id).get());
+        if (seen == nullptr) continue;
+        const Plane surface_map = graph_.plane(graph_.handle(seen->node(1)));
+        sum += surface_map.normal *
+               (graph_.pose(id).linear() * seen->measured_base.normal).transpose();
+      }
+    }
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    if (svd.singularValues()(1) <= kLeast * svd.singularValues()(0)) {
+      return Eigen::Matrix3d::Identity();
+    }
+    Eigen::Vector3d signs = Eigen::Vector3d::Ones();
+    signs.z() = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+    return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  }
+
+  /// A later stay turned as its walls say, and as if it had begun where the first did.
   void bringToTheFirst(const RegionPlan& visit) {
-    const Pose motion = graph_.pose(visit.kept) * graph_.pose(visit.dropped.front()).inverse();
+    Pose motion = Pose::Identity();
+    motion.linear() = turnOntoWalls(visit);
+    motion.translation() = graph_.pose(visit.kept).translation() -
+                           motion.linear() * graph_.pose(visit.dropped.front()).translation();
     for (const auto* const keyframes : {&visit.dropped, &visit.stay}) {
       for (const KeyframeId id : *keyframes) {
         if (id != visit.kept) graph_.setPose(id, orthonormalized(motion * graph_.pose(id)));
