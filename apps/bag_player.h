@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -33,6 +34,11 @@ class BagPlayer {
     T_base_lidar_[lidar_frame_] = source_.transform(base_frame_, lidar_frame_);
   }
 
+  /// Scans up to and with this stamp are known already.
+  void skipTo(double stamp_s) { known_until_s_ = stamp_s; }
+
+  /// All but the last scan: what happened within its sweep may come in another bag, or with a longer
+  /// duration.
   /// @return What of the bags could not be read; empty if all could.
   std::string play(ProgressBar* bar) {
     BagHandlers handlers;
@@ -43,10 +49,10 @@ class BagPlayer {
     handlers.odom = [this](const auto& odom) { addOdom(*odom); };
     handlers.imu = [this](const auto& imu) { addImu(*imu); };
     handlers.progress = [bar](double done) { bar->show(done); };
-    const std::string damage = source_.play(handlers);
-    takeWaitingScan();
-    return damage;
+    return source_.play(handlers);
   }
+
+  void takeLastScan() { takeWaitingScan(); }
 
   std::size_t clouds() const { return clouds_; }
 
@@ -54,6 +60,7 @@ class BagPlayer {
   void takeWaitingScan() {
     if (waiting_ == nullptr) return;
     const auto cloud = std::exchange(waiting_, nullptr);
+    if (cloud->header.stamp.toSec() <= known_until_s_) return;
     ++clouds_;
     const std::string remark = take(*cloud);
     if (!remark.empty()) remarks_.add(request_.points_topic, cloud->header.stamp.toSec(), remark);
@@ -135,6 +142,7 @@ class BagPlayer {
   std::optional<Pose> T_child_base_;
   std::optional<Eigen::Matrix3d> R_base_imu_;
   sensor_msgs::PointCloud2::ConstPtr waiting_;
+  double known_until_s_ = -std::numeric_limits<double>::infinity();
   std::size_t clouds_ = 0;
 };
 

@@ -34,7 +34,14 @@ po::options_description describedOptions(OfflineOptions* options) {
   add("replay", po::value(&options->replay),
       "such a bag, or one of these topics recorded live: only the back end is run; several are "
       "played by time");
-  add("out", po::value(&options->out)->required(), "folder for the results");
+  add("out", po::value(&options->out),
+      "folder for the results, after a last optimization of everything");
+  add("dump", po::value(&options->dump),
+      "folder for the same without that: what is there at the end of the bag, or of --duration, for "
+      "a run that goes on with --load as if it had not stopped");
+  add("load", po::value(&options->load),
+      "a folder written by --dump, --out or the service dump: where the bag covers its end, the run "
+      "goes on there");
   add("params", po::value(&options->params), "parameter file, see config/default.yaml");
   add("mode", po::value(&options->mode),
       "baseline, paper or condensed, in place of the parameters' hierarchy/mode");
@@ -104,6 +111,9 @@ std::optional<OfflineOptions> parseOfflineOptions(int argc, char** argv) {
     throw po::error("--drift is for --replay");
   }
   po::notify(values);
+  if (options.out.empty() && options.dump.empty()) {
+    throw po::error("the option '--out' (or '--dump') is required but missing");
+  }
   if (values.count("duration") > 0 && !(options.bags.duration_s > 0.0)) {
     throw po::error("--duration must be positive");
   }

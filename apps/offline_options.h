@@ -16,7 +16,9 @@ struct OfflineOptions {
   std::vector<std::string>
       replay;          ///< Instead of the bags' files; `bags` has only the duration then.
   std::string record;  ///< Empty: nothing is recorded.
-  std::string out;
+  std::string out;   ///< May be empty if `dump` is not.
+  std::string dump;  ///< Empty: none.
+  std::string load;  ///< Empty: begins with nothing.
   std::string params;
   std::string mode;  ///< Empty: that of the parameters.
   std::string base_frame;

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -46,6 +48,18 @@ std::runtime_error nothingUsable(const std::string& what, std::size_t messages,
                             (damage.empty() ? "" : ". " + damage));
 }
 
+/// Before the work, not after it.
+void requireWritableFolders(const OfflineOptions& options) {
+  for (const std::string& folder : {options.out, options.dump}) {
+    if (!folder.empty()) requireWritableFolder(folder);
+  }
+}
+
+/// What to go on from; none: begin with nothing.
+std::unique_ptr<StateReader> loaded(const OfflineOptions& options) {
+  return options.load.empty() ? nullptr : std::make_unique<StateReader>(options.load);
+}
+
 FrontEndListener listenerOf(std::optional<FrontEndRecorder>* recorder) {
   return {[recorder](const OdometryResult& scan) { (*recorder)->add(scan); },
           [recorder](const Keyframe& keyframe, double segment_ms) {
@@ -59,14 +73,22 @@ Played playBags(const OfflineOptions& options, ProgressBar* bar, Remarks* remark
   Pipeline pipeline(configOf(options), records ? listenerOf(&recorder) : FrontEndListener{});
   BagSource source(options.bags);
   BagPlayer player(options.bags, options.base_frame, &source, &pipeline, remarks);
-  requireWritableFolder(options.out);  // before the work, not after it
+  requireWritableFolders(options);
   if (records) recorder.emplace(options.record);
+  if (const auto state = loaded(options)) {
+    pipeline.restore(*state);
+    if (pipeline.stamp_s()) player.skipTo(*pipeline.stamp_s());
+  }
+  const std::size_t known = pipeline.scans();
 
   const std::string damage = player.play(bar);
+  if (!options.dump.empty()) writeRun(options.dump, pipeline.record());
+  player.takeLastScan();
   const std::string& topic = options.bags.points_topic;
-  const std::size_t scans = pipeline.scans();
+  const std::size_t scans = pipeline.scans() - known;
   if (scans == 0) throw nothingUsable("scan", player.clouds(), topic, damage);
   if (records) recorder->close();
+  pipeline.finish();
   return {pipeline.record(), damage,
           "scans on '" + topic + "' left out: " + std::to_string(player.clouds() - scans) + " of " +
               std::to_string(player.clouds())};
@@ -75,17 +97,24 @@ Played playBags(const OfflineOptions& options, ProgressBar* bar, Remarks* remark
 Played replay(const OfflineOptions& options, ProgressBar* bar, Remarks* remarks) {
   BackEnd back_end(configOf(options));
   FrontEndBag bag(options.replay, options.bags.duration_s);
-  requireWritableFolder(options.out);
+  requireWritableFolders(options);
+  double known_until_s = -std::numeric_limits<double>::infinity();
+  if (const auto state = loaded(options)) {
+    back_end.restore(*state);
+    known_until_s = back_end.stamp_s().value_or(known_until_s);
+  }
 
   std::size_t refused = 0;
   OdometryDrift drift(options.drift_rad_per_m);
   FrontEndHandlers handlers;
   handlers.scan = [&](ScanMotion scan, const ScanReport& report) {
     drift.apply(&scan);
+    if (scan.stamp_s <= known_until_s) return;
     back_end.addScan(scan, report);
   };
   handlers.keyframe = [&](Keyframe keyframe, double segment_ms) {
     drift.apply(&keyframe);
+    if (keyframe.stamp_s <= known_until_s) return;
     try {
       back_end.addKeyframe(keyframe, segment_ms);
     } catch (const std::invalid_argument& error) {
@@ -101,6 +130,8 @@ Played replay(const OfflineOptions& options, ProgressBar* bar, Remarks* remarks)
   const std::string damage = bag.play(handlers);
   const std::size_t keyframes = back_end.graph()->keyframes.size();
   if (keyframes == 0) throw nothingUsable("keyframe", refused, bag.keyframeTopic(), damage);
+  if (!options.dump.empty()) writeRun(options.dump, back_end.record());
+  back_end.finish();
   return {back_end.record(), damage, "messages left out: " + std::to_string(refused)};
 }
 
@@ -113,9 +144,10 @@ void run(const OfflineOptions& options) {
 
   RunRecord& record = played.record;
   record.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  writeRun(options.out, record);
+  if (!options.out.empty()) writeRun(options.out, record);
   std::printf("%zu scans, %zu keyframes, %.1f s of data in %.1f s: %s\n", record.scans.size(),
-              record.graph->keyframes.size(), record.data_s, record.wall_s, options.out.c_str());
+              record.graph->keyframes.size(), record.data_s, record.wall_s,
+              (options.out.empty() ? options.dump : options.out).c_str());
   if (remarks.count() > 0) {
     std::fprintf(stderr, "messages remarked on: %zu; %s\n", remarks.count(),
                  played.left_out.c_str());

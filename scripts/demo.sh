@@ -83,7 +83,7 @@ done
 
 sleep 3  # the last scans are still on their way
 rm -rf "$result"
-rosservice call /sgraphs/dump "folder: '$result'" > "$out/dump.log" 2>&1 || fail "dump failed"
+rosservice call /sgraphs/dump "{folder: '$result', finish: true}" > "$out/dump.log" 2>&1 || fail "dump failed"
 grep -q 'success: True' "$out/dump.log" || { cat "$out/dump.log" >&2; fail "dump failed"; }
 sleep 2
 import -window root "$result/picture.png"

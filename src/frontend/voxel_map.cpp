@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "cell_key.h"
+#include "mrpt_sgraphs/geometry/archive.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -55,6 +56,22 @@ struct Surface {
   bool seenFrom(const Eigen::Vector3d& ray) const {
     return flat ? plane.normal.dot(ray) < 0.0 : ray_sum.dot(ray) > 0.0;
   }
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a.item(count);
+    if (count == 0) return;
+    a.item(fitted_count);
+    a.item(flat);
+    a.item(sum);
+    a.item(outer);
+    a.item(ray_sum);
+    if (!flat) return;
+    a.item(plane.centre);
+    a.item(plane.normal);
+    a.item(plane.variance_m2);
+    a.item(plane.to_extent);
+  }
 };
 
 struct Cell {
@@ -62,6 +79,14 @@ struct Cell {
   Eigen::Vector3d corner;
   double seen_at = 0.0;  ///< Time of the last point, whatever the caller counts in.
   bool queued = false;
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a.item(faces[0]);
+    a.item(faces[1]);
+    a.item(corner);
+    a.item(seen_at);
+  }
 };
 
 class Grid {
@@ -134,6 +159,12 @@ class Grid {
   }
 
   std::size_t size() const { return cells_.size(); }
+
+  /// After refit().
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("cells", cells_);
+  }
 
  private:
   static Key keyOf(const Eigen::Array3d& index) {
@@ -226,5 +257,14 @@ std::vector<MapPlane> VoxelMap::planes(int level) const {
 }
 
 std::size_t VoxelMap::cells() const { return levels_->grids.front().size(); }
+
+template <typename Archive>
+void VoxelMap::archive(Archive& a) {
+  if constexpr (!Archive::kReads) refit();
+  for (Grid& grid : levels_->grids) a("grid", grid);
+}
+
+template void VoxelMap::archive(ArchiveWriter&);
+template void VoxelMap::archive(ArchiveReader&);
 
 }  // namespace mrpt_sgraphs

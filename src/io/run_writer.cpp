@@ -3,23 +3,32 @@
 
 #include "mrpt_sgraphs/io/run_writer.h"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <iomanip>
+#include <locale>
 #include <stdexcept>
 
-#include "mrpt_sgraphs/io/atomic_file.h"
+#include "mrpt_sgraphs/io/cloud_file.h"
 #include "mrpt_sgraphs/io/exports.h"
+#include "mrpt_sgraphs/io/folder_version.h"
+#include "mrpt_sgraphs/io/state_files.h"
 #include "mrpt_sgraphs/mapping/map_cloud.h"
 #include "run_report.h"
 
 namespace mrpt_sgraphs {
 namespace {
 
+/// In a folder that nobody knows yet, which is brought to the disk as a whole.
 template <typename Write>
 void writeFile(const std::string& path, const Write& write) {
-  AtomicFile file(path);
-  write(file.stream());
-  file.commit();
+  std::ofstream file(path, std::ios::binary);
+  file.imbue(std::locale::classic());
+  write(file);
+  file.close();
+  if (!file) throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
 }
 
 void writeOptimizations(const std::vector<OptimizationSummary>& rows, std::ostream& out) {
@@ -57,22 +66,21 @@ Trajectory keyframeTrajectory(const GraphSnapshot& graph) {
   return trajectory;
 }
 
-}  // namespace
-
-void requireWritableFolder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw std::runtime_error("cannot make the folder '" + folder + "': " + error.message());
+/// As a file for --params: `section/field` by sections.
+void writeParameters(const std::map<std::string, std::string>& parameters, std::ostream& out) {
+  std::string section;
+  for (const auto& [name, value] : parameters) {
+    const std::size_t slash = name.find('/');
+    if (name.substr(0, slash) != section) {
+      section = name.substr(0, slash);
+      out << section << ":\n";
+    }
+    out << "  " << name.substr(slash + 1) << ": " << value << '\n';
   }
-  AtomicFile((std::filesystem::path(folder) / "report.json").string());  // not committed
 }
 
-void writeRun(const std::string& folder, const RunRecord& run) {
-  requireWritableFolder(folder);
-  const auto in = [&folder](const char* name) {
-    return (std::filesystem::path(folder) / name).string();
-  };
+void writeFiles(const std::filesystem::path& folder, const RunRecord& run) {
+  const auto in = [&folder](const std::string& name) { return (folder / name).string(); };
   writeTum(in("trajectory.tum"), run.trajectory);
   writeTum(in("odometry.tum"), run.odometry);
   writeTum(in("keyframes.tum"), keyframeTrajectory(*run.graph));
@@ -85,6 +93,30 @@ void writeRun(const std::string& folder, const RunRecord& run) {
             [&](std::ostream& out) { writeOptimizations(run.optimizations, out); });
   writeFile(in("scans.csv"), [&](std::ostream& out) { writeScans(run.scans, out); });
   writeFile(in("report.json"), [&](std::ostream& out) { writeReport(run, out); });
+  writeFile(in("parameters.yaml"), [&](std::ostream& out) { writeParameters(run.parameters, out); });
+  if (run.state.empty()) return;
+  std::filesystem::create_directory(folder / "state");
+  for (const auto& [name, bytes] : run.state) {
+    writeFile(in(name), [&content = bytes](std::ostream& out) { out << content; });
+  }
+  std::filesystem::create_directory(folder / "clouds");
+  for (const KeyframeNode& keyframe : run.graph->keyframes) {
+    if (keyframe.cloud == nullptr) continue;
+    writeFile(in(cloudFileOf(keyframe.id)),
+              [&](std::ostream& out) { writeCloud(*keyframe.cloud, out); });
+  }
+}
+
+}  // namespace
+
+void requireWritableFolder(const std::string& folder) {
+  FolderVersion version(folder);  // not committed
+}
+
+void writeRun(const std::string& folder, const RunRecord& run) {
+  FolderVersion version(folder);
+  writeFiles(version.folder(), run);
+  version.commit();
 }
 
 }  // namespace mrpt_sgraphs

@@ -19,8 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// @throws std::runtime_error for what the user has to know.
-RunRecord recordOf(GraphSlamThread& slam) {
-  RunRecord record = slam.record().get();
+RunRecord notEmpty(RunRecord record) {
   if (record.graph->keyframes.empty()) {
     throw std::runtime_error("nothing was written: there is no keyframe yet");
   }
@@ -64,7 +63,7 @@ GraphServices::GraphServices(ros::NodeHandle& nh, GraphSlamThread& slam, std::st
 bool GraphServices::dump(Dump::Request& request, Dump::Response& response) {
   return answer(response, [&] {
     if (request.folder.empty()) throw std::invalid_argument("nothing was written: no folder given");
-    const RunRecord record = recordOf(slam_);
+    const RunRecord record = notEmpty(slam_.dump(request.finish).get());
     const fs::path folder = fs::absolute(request.folder);
     writeRun(folder.string(), record);
     std::ostringstream text;
@@ -89,7 +88,7 @@ bool GraphServices::saveMap(SaveMap::Request& request, SaveMap::Response& respon
     if (!(request.resolution >= 0.0)) {
       throw std::invalid_argument("nothing was written: the resolution must not be below 0");
     }
-    const RunRecord record = recordOf(slam_);
+    const RunRecord record = notEmpty(slam_.record().get());
     const fs::path path = fs::absolute(request.path);
     const Cloud::ConstPtr map = mapCloud(
         *record.graph, request.resolution > 0.0 ? request.resolution : record.map_resolution_m);

@@ -11,6 +11,7 @@
 #include "mrpt_sgraphs/geometry/resident_memory.h"
 #include "mrpt_sgraphs/slam/config_file.h"
 #include "mrpt_sgraphs/slam/graph_slam.h"
+#include "mrpt_sgraphs/slam/graph_state.h"
 #include "mrpt_sgraphs/slam/run_log.h"
 
 namespace mrpt_sgraphs {
@@ -99,7 +100,8 @@ void GraphSlamThread::startAgain(std::uint32_t session, const std::string& folde
     std::string fate = "nothing had been mapped";
     try {
       if (!session_->slam.snapshot()->keyframes.empty()) {
-        writeRun(folder, recordNow());
+        finish();
+        writeRun(folder, dumpNow());
         fate = "what had been mapped lies in " + folder;
       }
     } catch (const std::exception& error) {
@@ -123,6 +125,13 @@ std::future<RunRecord> GraphSlamThread::record() {
   return ask<RunRecord>([this] { return recordNow(); });
 }
 
+std::future<RunRecord> GraphSlamThread::dump(bool finish) {
+  return ask<RunRecord>([this, finish] {
+    if (finish) this->finish();
+    return dumpNow();
+  });
+}
+
 std::future<Trajectory> GraphSlamThread::trajectory() {
   return ask<Trajectory>(
       [this] { return session_->log.trajectory().corrected(*session_->slam.snapshot()); });
@@ -133,17 +142,27 @@ std::size_t GraphSlamThread::waiting() const {
   return jobs_.size();
 }
 
-RunRecord GraphSlamThread::recordNow() {
+void GraphSlamThread::finish() {
   HierarchyConfig unhurried = config_.hierarchy;
   unhurried.budget_ms = 0.0;
   session_->slam.setHierarchy(unhurried);
   tell(session_->slam.finish());
   session_->slam.setHierarchy(config_.hierarchy);
+}
 
+RunRecord GraphSlamThread::recordNow() {
   RunRecord record = session_->log.record(session_->slam.snapshot());
   record.parameters = parameterList(config_);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - session_->started;
   record.wall_s = wall.count();
+  return record;
+}
+
+RunRecord GraphSlamThread::dumpNow() {
+  RunRecord record = recordNow();
+  StateWriter state(record.graph);
+  writeGraphState(&session_->slam, &session_->log, &state);
+  record.state = state.files();
   return record;
 }
 

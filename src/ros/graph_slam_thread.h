@@ -55,8 +55,11 @@ class GraphSlamThread {
   void startAgain(std::uint32_t session, const std::string& folder);
 
   std::future<OptimizationSummary> optimize();
-  /// After a last optimization, which takes as long as it takes.
+  /// What there is.
   std::future<RunRecord> record();
+  /// The same with all that is needed to go on.
+  /// @param finish  After a last optimization, which takes as long as it takes.
+  std::future<RunRecord> dump(bool finish);
 
   /// T_map_base of every scan.
   std::future<Trajectory> trajectory();
@@ -73,7 +76,9 @@ class GraphSlamThread {
   std::future<Result> ask(std::function<Result()> job);
   void post(std::function<void()> job);
   void run();
+  void finish();
   RunRecord recordNow();
+  RunRecord dumpNow();
 
   SlamConfig config_;  ///< Belongs to the thread.
   const Listener listener_;

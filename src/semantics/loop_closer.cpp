@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "mrpt_sgraphs/frontend/thinning.h"
+#include "mrpt_sgraphs/geometry/archive.h"
 #include "mrpt_sgraphs/graph/uncertainty.h"
 
 namespace mrpt_sgraphs {
@@ -233,5 +234,25 @@ std::optional<LoopClosure> LoopCloser::confirm(const GraphSnapshot& graph, Keyfr
   }
   return std::nullopt;
 }
+
+template <typename Archive>
+void LoopCloser::archive(Archive& a) {
+  std::vector<std::optional<ScanContext>> contexts;
+  for (const auto& context : contexts_) {
+    contexts.push_back(context == nullptr ? std::nullopt : std::make_optional(*context));
+  }
+  a("contexts", contexts);
+  a("path_m", path_m_);
+  a("searched_at_m", searched_at_m_);
+  if constexpr (Archive::kReads) {
+    contexts_.clear();
+    for (const auto& context : contexts) {
+      contexts_.push_back(context ? std::make_unique<ScanContext>(*context) : nullptr);
+    }
+  }
+}
+
+template void LoopCloser::archive(ArchiveWriter&);
+template void LoopCloser::archive(ArchiveReader&);
 
 }  // namespace mrpt_sgraphs

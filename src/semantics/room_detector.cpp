@@ -29,6 +29,12 @@ struct RoomDetector::State {
 
     StoreyRooms rooms;
     std::vector<DetectedRoom> detected;
+
+    template <typename Archive>
+    void archive(Archive& a) {
+      a("rooms", rooms);
+      a("detected", detected);
+    }
   };
 
   explicit State(const RoomDetectorConfig& config) : config(config) {}
@@ -78,5 +84,26 @@ RoomDetection RoomDetector::detect(const GraphSnapshot& graph) {
   }
   return detection;
 }
+
+template <typename Archive>
+void RoomDetector::archive(Archive& a) {
+  const std::size_t storeys = a.count(state_->storeys.size());
+  if constexpr (Archive::kReads) {
+    state_->storeys.clear();
+    for (std::size_t k = 0; k < storeys; ++k) {
+      FloorId floor;
+      a.item(floor);
+      a("storey", state_->storeys.try_emplace(floor, state_->config, floor).first->second);
+    }
+  } else {
+    for (auto& [floor, storey] : state_->storeys) {
+      a.item(floor);
+      a("storey", storey);
+    }
+  }
+}
+
+template void RoomDetector::archive(ArchiveWriter&);
+template void RoomDetector::archive(ArchiveReader&);
 
 }  // namespace mrpt_sgraphs

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "mrpt_sgraphs/graph/archive_graph.h"
 #include "mrpt_sgraphs/graph/snapshot.h"
 #include "mrpt_sgraphs/mapping/free_space.h"
 #include "mrpt_sgraphs/semantics/detected_room.h"
@@ -35,10 +36,29 @@ class StoreyRooms {
 
   const FreeSpace& space() const { return space_; }
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    CellBox known = space_.box();
+    a("known", known);
+    a("integrated", integrated_);
+    if constexpr (Archive::kReads) {
+      // sums are exact: what is added again is what was there
+      for (const auto& [id, seen] : integrated_) space_.add(*seen.cloud, seen.T_floor_base);
+      space_.extendBox(known);
+    }
+  }
+
  private:
   struct Integrated {
     Pose T_floor_base;
     Cloud::ConstPtr cloud;
+
+    template <typename Archive>
+    void archive(Archive& a) {
+      a("T_floor_base", T_floor_base);
+      a("cloud", cloud);
+    }
   };
 
   RoomDetectorConfig config_;

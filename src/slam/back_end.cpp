@@ -6,6 +6,7 @@
 #include "mrpt_sgraphs/geometry/cpu_time.h"
 #include "mrpt_sgraphs/geometry/resident_memory.h"
 #include "mrpt_sgraphs/slam/config_file.h"
+#include "mrpt_sgraphs/slam/graph_state.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -45,11 +46,26 @@ void BackEnd::addKeyframe(const Keyframe& keyframe, double segment_ms) {
   report->rss_mib = residentMemory_MiB();
 }
 
+void BackEnd::finish() { log_.add(graph_slam_.finish()); }
+
 RunRecord BackEnd::record() {
-  log_.add(graph_slam_.finish());
   RunRecord run = log_.record(graph_slam_.snapshot());
   run.parameters = parameterList(config_);
+  StateWriter state(run.graph);
+  writeState(&state);
+  run.state = state.files();
   return run;
+}
+
+void BackEnd::writeState(StateWriter* state) {
+  writeGraphState(&graph_slam_, &log_, state);
+  state->add("rooms", [this](auto& a) { a("rooms", rooms_); });
+}
+
+void BackEnd::restore(const StateReader& state) {
+  readGraphState(state, &graph_slam_, &log_);
+  if (!state.has("rooms")) return;  // of a running robot: the rooms are found again
+  state.read("rooms", [this](auto& a) { a("rooms", rooms_); });
 }
 
 }  // namespace mrpt_sgraphs

@@ -6,6 +6,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <array>
+#include <iomanip>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -20,6 +21,15 @@ std::string toText(const T& value) {
   return text.str();
 }
 std::string toText(bool value) { return value ? "true" : "false"; }
+/// As short as it can be without being another number.
+std::string toText(double value) {
+  for (int digits = 6;; ++digits) {
+    std::ostringstream text;
+    text << std::setprecision(digits) << value;
+    constexpr int kAllDigits = 17;
+    if (digits == kAllDigits || std::stod(text.str()) == value) return text.str();
+  }
+}
 
 /// Takes a section's fields out of its YAML node, and what is left over is an error.
 class SectionReader {

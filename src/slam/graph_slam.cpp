@@ -10,6 +10,7 @@
 
 #include "mrpt_sgraphs/frontend/ground_layer.h"
 #include "mrpt_sgraphs/frontend/wall_layer.h"
+#include "mrpt_sgraphs/graph/archive_graph.h"
 #include "mrpt_sgraphs/hierarchy/condense.h"
 #include "mrpt_sgraphs/hierarchy/transfer.h"
 #include "mrpt_sgraphs/mapping/redundant_keyframes.h"
@@ -262,5 +263,21 @@ void GraphSlam::setHierarchy(const HierarchyConfig& hierarchy) {
 GraphSnapshotConstPtr GraphSlam::snapshot() const { return state_->graph.snapshot(); }
 
 const Pose& GraphSlam::T_map_odom() const { return state_->graph.T_map_odom(); }
+
+template <typename Archive>
+void GraphSlam::archive(Archive& a) {
+  a("graph", state_->graph);
+  a("loop_closer", state_->loop_closer);
+  a("way", state_->way);
+  a("walls", state_->walls);
+  a("ground", state_->ground);
+  a("rooms", state_->rooms);
+  a("reunion_tried_at_m", state_->reunion_tried_at_m);
+  a("stages", *state_->stages);
+  a("loop_storey", state_->loop_storey);
+}
+
+template void GraphSlam::archive(ArchiveWriter&);
+template void GraphSlam::archive(ArchiveReader&);
 
 }  // namespace mrpt_sgraphs

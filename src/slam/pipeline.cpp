@@ -62,7 +62,15 @@ RunRecord Pipeline::record() {
   RunRecord run = back_end_.record();
   const auto parameters = parameterList(config_);
   run.parameters.insert(parameters.begin(), parameters.end());  // those of the back end are in it
+  StateWriter state(run.graph);
+  state.add("front_end", [this](auto& a) { archiveFrontEnd(a); });
+  run.state.insert(state.files().begin(), state.files().end());
   return run;
+}
+
+void Pipeline::restore(const StateReader& state) {
+  back_end_.restore(state);
+  state.read("front_end", [this](auto& a) { archiveFrontEnd(a); });
 }
 
 }  // namespace mrpt_sgraphs

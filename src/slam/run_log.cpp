@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mrpt_sgraphs/geometry/archive_geometry.h"
+
 namespace mrpt_sgraphs {
 
 void RunLog::addScan(const ScanMotion& scan, const ScanReport& report) {
@@ -36,5 +38,51 @@ RunRecord RunLog::record(const GraphSnapshotConstPtr& graph) const {
   if (!scans_.empty()) run.data_s = scans_.back().stamp_s - scans_.front().stamp_s;
   return run;
 }
+
+template <typename Archive>
+void part(Archive& a, StampedPose& stamped) {
+  a.item(stamped.stamp_s);
+  a.item(stamped.T_world_body);
+}
+
+template <typename Archive>
+void part(Archive& a, ScanReport& r) {
+  for (double* value : {&r.stamp_s, &r.prefilter_ms, &r.deskew_ms, &r.register_ms, &r.map_ms,
+                        &r.select_ms, &r.segment_ms, &r.keyframe_ms, &r.rooms_ms, &r.rss_mib}) {
+    a.item(*value);
+  }
+  a.item(r.registered);
+  a.item(r.keyframe);
+}
+
+template <typename Archive>
+void part(Archive& a, OptimizationSummary& r) {
+  a("stamp_s", r.stamp_s);
+  a("kind", r.kind);
+  a("mode", r.mode);
+  a("room", r.room);
+  for (int* value :
+       {&r.keyframes_active, &r.keyframes_marginalized, &r.dropped, &r.walls, &r.rooms, &r.floors,
+        &r.factors, &r.free_variables, &r.iterations}) {
+    a.item(*value);
+  }
+  a("free_keyframes", r.free_keyframes);
+  a("fixed_keyframes", r.fixed_keyframes);
+  a("cost_before", r.cost_before);
+  a("cost_after", r.cost_after);
+  a("converged", r.converged);
+  a("problem", r.problem);
+  for (double* value : {&r.total_ms, &r.linearize_ms, &r.factorize_ms}) a.item(*value);
+}
+
+template <typename Archive>
+void RunLog::archive(Archive& a) {
+  a("trajectory", trajectory_);
+  a("optimizations", optimizations_);
+  a("scans", scans_);
+}
+
+template void RunLog::archive(ArchiveWriter&);
+template void RunLog::archive(ArchiveReader&);
 
 }  // namespace mrpt_sgraphs

@@ -38,6 +38,15 @@ class Stages {
 
   bool compresses() const { return hierarchy_.mode != "baseline"; }
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("window", window_);
+    a("compression", compression_);
+    a("optimized_room", optimized_room_);
+    a("optimized_at", optimized_at_);
+  }
+
  private:
   OptimizationSummary optimize(const char* kind, const Selection& selection,
                                double min_relative_decrease, LayeredGraph* graph);

@@ -119,7 +119,7 @@ class HierarchyTest(unittest.TestCase):
     def test_7_what_is_written_is_optimized_before(self):
         begin = len(self.reports)
         folder = os.path.join(tempfile.mkdtemp(), 'run')
-        answer = rospy.ServiceProxy('/sgraphs/dump', Dump)(folder)
+        answer = rospy.ServiceProxy('/sgraphs/dump', Dump)(folder, True)
         self.assertTrue(answer.success, answer.message)
         self.assertTrue(wait_for(lambda: 'resolve' in [r.kind for r in self.reports[begin:]], 5.0))
         with open(os.path.join(folder, 'optimizations.csv')) as lines:

@@ -144,7 +144,7 @@ class PipelineTest(unittest.TestCase):
 
     def test_dump_writes_every_file_and_every_scan(self):
         folder = os.path.join(tempfile.mkdtemp(), 'run')
-        answer = rospy.ServiceProxy('/sgraphs/dump', Dump)(folder)
+        answer = rospy.ServiceProxy('/sgraphs/dump', Dump)(folder, True)
         self.assertTrue(answer.success, answer.message)
         for name in FILES:
             self.assertIn(name, answer.message)
@@ -157,7 +157,7 @@ class PipelineTest(unittest.TestCase):
             self.assertEqual(float(row['segment_ms']) > 0.0, row['keyframe'] == '1', row)
 
     def test_dump_says_why_it_cannot_write(self):
-        answer = rospy.ServiceProxy('/sgraphs/dump', Dump)('/proc/nowhere')
+        answer = rospy.ServiceProxy('/sgraphs/dump', Dump)('/proc/nowhere', True)
         self.assertFalse(answer.success)
         self.assertIn('/proc/nowhere', answer.message)
 

@@ -153,7 +153,7 @@ class RoomsTest(unittest.TestCase):
 
     def test_scans_tell_what_rooms_have_cost(self):
         folder = os.path.join(tempfile.mkdtemp(), 'run')
-        answer = rospy.ServiceProxy('/sgraphs/dump', Dump)(folder)
+        answer = rospy.ServiceProxy('/sgraphs/dump', Dump)(folder, True)
         self.assertTrue(answer.success, answer.message)
         with open(os.path.join(folder, 'scans.csv')) as lines:
             rows = list(csv.DictReader(lines))
@@ -175,7 +175,7 @@ class RoomsTest(unittest.TestCase):
         publisher.publish(message)
         self.assertIsNotNone(self.log.find(Log.WARN, "found room 0: 'hall' is no kind of room"),
                              self.log.texts(Log.WARN))
-        self.assertTrue(rospy.ServiceProxy('/sgraphs/dump', Dump)(tempfile.mkdtemp()).success)
+        self.assertTrue(rospy.ServiceProxy('/sgraphs/dump', Dump)(tempfile.mkdtemp(), True).success)
 
 
 if __name__ == '__main__':

@@ -34,6 +34,7 @@ RunRecord play(const test::SimulatedRun& run, const SlamConfig& config,
     EXPECT_EQ(pipeline.addScan(raw.view(), run.T_base_lidar, "base_link"), "") << "scan " << k;
   }
   EXPECT_EQ(pipeline.scans(), run.scans.size());
+  pipeline.finish();
   return pipeline.record();
 }
 

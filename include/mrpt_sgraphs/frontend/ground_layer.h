@@ -28,10 +28,24 @@ class GroundLayer {
   /// To be called when the planes of dropped keyframes go: nobody keeps them here any more.
   void letPlanesGo(const std::vector<KeyframeId>& keyframes);
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("levels", levels_);
+    a("standing", standing_);
+  }
+
  private:
   struct Level : SurfaceTrack {
     std::optional<FloorId> id;  ///< None on probation.
     double seen_at_m = 0.0;     ///< The way that the robot had gone.
+
+    template <typename Archive>
+    void archive(Archive& a) {
+      SurfaceTrack::archive(a);
+      a("id", id);
+      a("seen_at_m", seen_at_m);
+    }
   };
 
   /// How far below the base's origin the robot stands on something: what it sees of a storey below
@@ -39,6 +53,12 @@ class GroundLayer {
   struct Standing {
     double height_m = 0.0;   ///< Negative where the base is above the ground.
     double seen_at_m = 0.0;  ///< The way that the robot had gone.
+
+    template <typename Archive>
+    void archive(Archive& a) {
+      a("height_m", height_m);
+      a("seen_at_m", seen_at_m);
+    }
   };
 
   Eigen::Vector3d up_map(const LayeredGraph& graph) const;

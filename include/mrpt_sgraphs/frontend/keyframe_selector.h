@@ -41,6 +41,13 @@ struct ScanMotion {
   double stamp_s = 0.0;
   Pose T_odom_base = Pose::Identity();
   Matrix6 covariance = Matrix6::Zero();  ///< Of the motion since the last scan, right perturbation.
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("stamp_s", stamp_s);
+    a("T_odom_base", T_odom_base);
+    a("covariance", covariance);
+  }
 };
 
 /// A scan that the graph keeps.
@@ -61,6 +68,15 @@ class KeyframeSelector {
   std::optional<Keyframe> process(const ScanMotion& scan, const Cloud& deskewed);
 
   void reset() { *this = KeyframeSelector(config_); }
+
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("last_keyframe", last_keyframe_);
+    a("last_T_odom_base", last_T_odom_base_);
+    a("covariance_since", covariance_since_);
+    a("distance_since_m", distance_since_m_);
+  }
 
  private:
   bool isKeyframe(const ScanMotion& scan) const;

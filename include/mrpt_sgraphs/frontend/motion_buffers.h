@@ -14,12 +14,25 @@ struct ImuSample {
   double stamp_s = 0.0;
   Eigen::Vector3d angular_velocity_base{0.0, 0.0, 0.0};     ///< [rad/s]
   Eigen::Vector3d specific_force_base{0.0, 0.0, 0.0};       ///< [m/s^2], +9.81 upwards at rest
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("stamp_s", stamp_s);
+    a("angular_velocity_base", angular_velocity_base);
+    a("specific_force_base", specific_force_base);
+  }
 };
 
 /// One pose of the robot's own odometry, in a frame that may drift but does not jump.
 struct OdomSample {
   double stamp_s = 0.0;
   Pose T_odom_base = Pose::Identity();
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("stamp_s", stamp_s);
+    a("T_odom_base", T_odom_base);
+  }
 };
 
 /// The last seconds of the robot's own odometry, asked for the motion between two stamps.
@@ -31,6 +44,12 @@ class OdomBuffer {
 
   /// T_base(from)_base(to), interpolated; nothing where the buffer does not cover both within 0.1 s.
   std::optional<Pose> motion(double from_s, double to_s) const;
+
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("samples", samples_);
+  }
 
  private:
   std::optional<Pose> at(double stamp_s) const;
@@ -56,6 +75,13 @@ class ImuBuffer {
 
   /// What the scans say that the gyroscope has too much, folded in slowly [rad/s].
   void correctBias(const Eigen::Vector3d& excess_rad_s);
+
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("samples", samples_);
+    a("bias_rad_s", bias_rad_s_);
+  }
 
  private:
   std::deque<ImuSample> samples_;

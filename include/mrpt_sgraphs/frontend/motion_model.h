@@ -30,6 +30,14 @@ struct MotionState {
   double seen_until_s = 0.0;  ///< The end of the sweep, whose motion the scan has shown itself.
   MovingPose mean;
   Matrix12 covariance = Matrix12::Zero();  ///< Of pose and velocity, right perturbation.
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("stamp_s", stamp_s);
+    a("seen_until_s", seen_until_s);
+    a("mean", mean);
+    a("covariance", covariance);
+  }
 };
 
 /// A robot at a place, moving in a way that is not known yet.

@@ -82,6 +82,20 @@ class Odometry {
   /// After a jump in time (a bag that starts again): forgets everything but the parameters.
   void reset();
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("map", map_);
+    a("matcher", matcher_);
+    a("imu", imu_);
+    a("odom_in", odom_in_);
+    a("last", last_);
+    a("last_in_map", last_in_map_);
+    a("scans_in_map", scans_in_map_);
+    a("way_m", way_m_);
+    a("forgot_at_m", forgot_at_m_);
+  }
+
  private:
   OdometryResult start(const Cloud& scan);
   OdometryResult follow(const Cloud& scan);

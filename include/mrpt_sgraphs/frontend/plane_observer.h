@@ -26,6 +26,12 @@ class PlaneObserver {
 
   void reset() { gatherer_.reset(); }
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("gatherer", gatherer_);
+  }
+
  private:
   PlaneSegmentationConfig config_;
   ScanGatherer gatherer_;

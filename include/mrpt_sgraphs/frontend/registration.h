@@ -38,6 +38,12 @@ struct ScanPoint {
 struct MovingPose {
   Pose T_map_base = Pose::Identity();
   Tangent velocity_base = Tangent::Zero();  ///< [v; omega], m/s and rad/s
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("T_map_base", T_map_base);
+    a("velocity_base", velocity_base);
+  }
 };
 
 using Matrix12 = Eigen::Matrix<double, 12, 12>;

@@ -43,10 +43,22 @@ class ScanGatherer {
   bool empty() const { return scans_.empty(); }
   void reset() { scans_.clear(); }
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("scans", scans_);
+  }
+
  private:
   struct Scan {
     Cloud::ConstPtr cloud;
     Pose T_odom_base;
+
+    template <typename Archive>
+    void archive(Archive& a) {
+      a("cloud", cloud);
+      a("T_odom_base", T_odom_base);
+    }
   };
 
   std::size_t wanted_points_;

@@ -19,6 +19,12 @@ class ScanMatcher {
   RegistrationResult match(const std::vector<ScanPoint>& points, const VoxelMap& map,
                            const MotionPrior& prior, const Eigen::Vector3d& viewpoint_base);
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("usual_inlier_ratio", usual_inlier_ratio_);
+  }
+
  private:
   RegistrationConfig config_;
   double usual_inlier_ratio_ = 0.5;  ///< Running mean over the scans.

@@ -46,6 +46,13 @@ class SeeThrough {
   /// The surface was found to lie a little elsewhere.
   void moveTo(const Plane& plane_map) { frame_ = PlaneFrame(plane_map, frame_.origin); }
 
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("frame", frame_);
+    a("passed", passed_);
+    a("lowest_view_m", lowest_view_m_);
+  }
+
  private:
   PlaneFrame frame_;
   CellSet passed_;

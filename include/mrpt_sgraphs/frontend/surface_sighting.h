@@ -23,6 +23,16 @@ struct SurfaceSighting {
   /// and covariance are in the factor then.
   std::shared_ptr<const ObservedPlane> observed;
   Eigen::Vector3d centroid_base = Eigen::Vector3d::Zero();  ///< Where `observed` is null.
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("keyframe", keyframe);
+    a("plane", plane);
+    a("factor", factor);
+    a("way_sigma_m", way_sigma_m);
+    a("observed", observed);
+    a("centroid_base", centroid_base);
+  }
 };
 
 SurfaceSighting sightingOf(KeyframeId keyframe, const ObservedPlanesConstPtr& planes,
@@ -89,6 +99,14 @@ struct SurfaceTrack {
   /// not of its tangent, whose basis is another one after the smallest turn where a wall stands
   /// upright.
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("plane_map", plane_map);
+    a("sightings", sightings);
+    a("anchor_map", anchor_map);
+    a("information", information);
+  }
 };
 
 /// Of the plane's tangent, the anchor as origin.

@@ -81,6 +81,10 @@ class VoxelMap {
   std::size_t cells() const;
   bool empty() const { return cells() == 0; }
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a);
+
  private:
   struct Levels;
   std::unique_ptr<Levels> levels_;

@@ -68,6 +68,13 @@ class WallExtent {
   /// On the plane of its grid.
   PlanarExtent outline_map(double max_gap_m) const;
 
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("frame", frame_);
+    a("cell_m", cell_m_);
+    a("cells", cells_);
+  }
+
  private:
   CellSet onGridOf(const WallExtent& other) const;
   /// @param enough  Are counted no further.

@@ -51,6 +51,16 @@ class WallLayer {
 
   const std::map<TrackNumber, WallTrack>& tracks() const { return tracks_; }
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("tracks", tracks_);
+    a("next", next_);
+    a("pairs", pairs_);
+    a("drawn_at", drawn_at_);
+    a("losses", losses_);
+  }
+
  private:
   /// Planes this near and parallel are of one surface if they overlap, whatever their covariances
   /// say: those know nothing of scans that a hand has shaken. Farther ones, seen together, are of

@@ -22,6 +22,12 @@ using TrackNumber = uint64_t;
 struct StoreyCut {
   double bottom_m = -std::numeric_limits<double>::infinity();
   double top_m = std::numeric_limits<double>::infinity();
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("bottom_m", bottom_m);
+    a("top_m", top_m);
+  }
 };
 
 /// How far keyframes saw a wall whose planes were let go of: nobody can draw it again.
@@ -29,6 +35,13 @@ struct KeptExtent {
   KeyframeId with;                          ///< That it moves with,
   Pose T_map_with = Pose::Identity();       ///< and where that was when it was drawn.
   WallExtent extent;
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("with", with);
+    a("T_map_with", T_map_with);
+    a("extent", extent);
+  }
 };
 
 /// One side of a wall, from its first sighting on: on probation, then a node of the graph.
@@ -46,6 +59,24 @@ struct WallTrack : SurfaceTrack {
   bool grown = true;             ///< Since it was last compared with the others.
   std::optional<PlanarExtent> outline_map;  ///< Of the extent, on its grid; none after a change.
   std::set<TrackNumber> apart;              ///< What was split from it: not to be merged again.
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    SurfaceTrack::archive(a);
+    a("id", id);
+    a("extent", extent);
+    a("kept", kept);
+    a("box_map", box_map);
+    a("seen_at_m", seen_at_m);
+    a("see_through", see_through);
+    a("is_furniture", is_furniture);
+    a("floor", floor);
+    a("is_on_more", is_on_more);
+    a("cut", cut);
+    a("grown", grown);
+    a("outline_map", outline_map);
+    a("apart", apart);
+  }
 };
 
 /// Of a keyframe that sees, or may see, something; none: on stairs, or not known yet.

@@ -23,6 +23,16 @@ class WayToNewest {
   KeyframeId newest() const { return newest_; }
   double way_m() const { return way_m_; }  ///< By odometry, from the first keyframe.
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("uncertainty", uncertainty_);
+    a("spread_m2", spread_m2_);
+    a("newest", newest_);
+    a("T_odom_newest", T_odom_newest_);
+    a("way_m", way_m_);
+  }
+
  private:
   std::vector<Matrix6> uncertainty_;  ///< By the keyframe's place.
   std::vector<double> spread_m2_;     ///< Of them.

@@ -90,6 +90,14 @@ class CellSet {
     }
   }
 
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("room", room_);
+    a("box", box_);
+    a("cells", cells_);
+    a("size", size_);
+  }
+
  private:
   std::size_t place(Cell cell) const {
     return static_cast<std::size_t>(cell.row - room_.min.row) *

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "mrpt_sgraphs/geometry/ids.h"
@@ -17,6 +18,9 @@ class KeyframeRuns {
     KeyframeId first;
     KeyframeId last;
   };
+
+  KeyframeRuns() = default;
+  explicit KeyframeRuns(std::vector<Run> runs) : runs_(std::move(runs)) {}
 
   void add(KeyframeId id) {
     if (!runs_.empty() && id.value == runs_.back().last.value + 1) {

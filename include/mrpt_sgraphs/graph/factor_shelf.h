@@ -37,6 +37,14 @@ class FactorShelf {
 
   const SharedVector<ShelvedFactor>& all() const { return factors_; }
 
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("factors", factors_);
+    a("slots", slots_);
+    a("by_node", by_node_);
+    a("by_kept", by_kept_);
+  }
+
  private:
   SharedVector<ShelvedFactor> factors_;
   std::unordered_map<FactorId, uint32_t> slots_;

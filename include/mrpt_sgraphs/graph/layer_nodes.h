@@ -68,6 +68,13 @@ class LayerNodes {
     for (uint32_t k = slot; k < nodes_.size(); ++k) slots_[nodes_[k].id.value] = k;
   }
 
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("nodes", nodes_);
+    a("slots", slots_);
+    a("next_id", next_id_);
+  }
+
  private:
   static constexpr uint32_t kErased = std::numeric_limits<uint32_t>::max();
 

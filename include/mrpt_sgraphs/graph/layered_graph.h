@@ -127,6 +127,11 @@ class LayeredGraph {
   /// changed since the last one, but for a pointer for every 256 nodes and factors.
   GraphSnapshotConstPtr snapshot() const;
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  /// Read into an empty graph. Which factors a node has is kept in their order.
+  template <typename Archive>
+  void archive(Archive& a);
+
  private:
   uint32_t slotOf(KeyframeId id) const { return keyframes_.slot(id); }
   uint32_t slotOf(WallId id) const { return walls_.slot(id); }

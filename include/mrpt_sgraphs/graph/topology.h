@@ -65,10 +65,22 @@ class Topology {
   /// The last factor moves into its place.
   void eraseFactor(uint32_t factor);
 
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("links", links_);
+    a("ends", ends_);
+  }
+
  private:
   struct NodeLinks {
     Links sightings;
     Links others;
+
+    template <typename Archive>
+    void archive(Archive& a) {
+      a("sightings", sightings);
+      a("others", others);
+    }
   };
 
   static bool isSighting(const Ends& ends);

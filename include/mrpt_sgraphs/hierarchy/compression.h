@@ -45,6 +45,15 @@ class Compression {
   /// Everything that was dropped comes back, with the factors that it had.
   void restore(LayeredGraph* graph);
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("active", active_);
+    a("known", known_);
+    a("looked_at", looked_at_);
+    a("followers", followers_);
+  }
+
  private:
   void takeIn(const LayeredGraph& graph);
   KeyframeId standIn(KeyframeId id, const std::vector<KeyframeId>& stay,

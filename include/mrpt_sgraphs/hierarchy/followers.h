@@ -32,10 +32,23 @@ class Followers {
   void place(KeyframeId kept, LayeredGraph* graph);
   void placeAll(LayeredGraph* graph);
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("of", of_);
+    a("count", count_);
+  }
+
  private:
   struct Group {
     std::vector<KeyframeId> dropped;
     Pose T_map_kept = Pose::Identity();  ///< When they were placed.
+
+    template <typename Archive>
+    void archive(Archive& a) {
+      a("dropped", dropped);
+      a("T_map_kept", T_map_kept);
+    }
   };
 
   static void place(KeyframeId kept, Group* group, LayeredGraph* graph);

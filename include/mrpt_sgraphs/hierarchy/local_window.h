@@ -28,6 +28,12 @@ class LocalWindow {
   /// sums up from the start again. That something was erased it sees for itself.
   void forget();
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("sums", sums_);
+  }
+
  private:
   /// What is known of a wall from keyframes in places below.
   struct Sum {
@@ -35,6 +41,14 @@ class LocalWindow {
     uint32_t summed_below = 0;
     std::ptrdiff_t count = 0;  ///< Of the sightings in it.
     uint64_t erasures = 0;     ///< Of the graph, when places were noted.
+
+    template <typename Archive>
+    void archive(Archive& a) {
+      a("sum", sum);
+      a("summed_below", summed_below);
+      a("count", count);
+      a("erasures", erasures);
+    }
   };
 
   const ObservationSum& sumOf(const LayeredGraph& graph, NodeHandle surface,

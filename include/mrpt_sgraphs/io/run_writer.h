@@ -39,15 +39,17 @@ struct RunRecord {
   double data_s = 0.0;                            ///< Time that the data covers.
   double wall_s = 0.0;                            ///< Time that the run took.
   double map_resolution_m = 0.05;
+  /// What is needed to go on, by the files' names; then the keyframes' clouds are written as well.
+  std::map<std::string, std::string> state;
 };
 
 /// Makes a folder where it is missing and tries whether files can be made in it.
 /// @throws std::runtime_error naming the folder and the reason if not.
 void requireWritableFolder(const std::string& folder);
 
-/// Writes a run into a folder, which is made where it is missing: trajectory.tum, odometry.tum,
-/// keyframes.tum, graph.json, graph.g2o, map.pcd, optimizations.csv, scans.csv, report.json. Each
-/// file is written under a temporary name and renamed, so that a file is the old one or the new one.
+/// Writes a run as a FolderVersion: trajectory.tum, odometry.tum, keyframes.tum, graph.json,
+/// graph.g2o, map.pcd, optimizations.csv, scans.csv, report.json, parameters.yaml, and its state with
+/// the keyframes' clouds. `folder` is then a link to all of it, or to all that was there before.
 /// @throws std::runtime_error naming the file and the reason.
 void writeRun(const std::string& folder, const RunRecord& run);
 

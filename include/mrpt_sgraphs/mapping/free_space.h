@@ -45,6 +45,8 @@ class FreeSpace {
   Space at(Cell cell) const;
   /// Around all that is known.
   const CellBox& box() const { return known_; }
+  /// Of which nothing is left, maybe.
+  void extendBox(const CellBox& known) { known_ = known_.united(known); }
   double cell_m() const { return config_.cell_m; }
 
   /// The voxels of the slab: unknown again where the log-odds are zero; inner nodes are not up to

@@ -16,6 +16,12 @@ struct BoundingWall {
   WallId id;
   /// Where its normal points, in the room: a horizontal unit vector.
   Eigen::Vector3d axis_room = Eigen::Vector3d::UnitX();
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("id", id);
+    a("axis_room", axis_room);
+  }
 };
 
 /// A way out of a room.
@@ -23,6 +29,13 @@ struct DetectedDoorway {
   std::optional<std::size_t> to;  ///< Among the rooms of the same detection; none: to what is none.
   Eigen::Vector3d centre_anchor = Eigen::Vector3d::Zero();  ///< On the ground, in the opening [m].
   double width_m = 0.0;
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("to", to);
+    a("centre_anchor", centre_anchor);
+    a("width_m", width_m);
+  }
 };
 
 /// A room as it was found in the graph of some moment. Everything is told in the frame of one of
@@ -38,6 +51,20 @@ struct DetectedRoom {
   std::vector<BoundingWall> walls;
   std::vector<KeyframeId> keyframes;  ///< Inside of it, in their order; at least one.
   std::vector<DetectedDoorway> doorways;
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("anchor", anchor);
+    a("T_anchor_room", T_anchor_room);
+    a("kind", kind);
+    a("floor", floor);
+    a("size_m", size_m);
+    a("extent_anchor", extent_anchor);
+    a("height_m", height_m);
+    a("walls", walls);
+    a("keyframes", keyframes);
+    a("doorways", doorways);
+  }
 };
 
 /// All rooms that there are.

@@ -89,6 +89,10 @@ class LoopCloser {
   std::optional<LoopClosure> confirm(const GraphSnapshot& graph, KeyframeId old,
                                      const Pose& T_old_newest) const;
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a);
+
  private:
   struct Candidate;
 

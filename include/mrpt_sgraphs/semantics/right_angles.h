@@ -17,6 +17,13 @@ struct RightAngles {
   double upright_rad = 0.01;      ///< from standing upright in their room,
   double floor_rad = 0.01;        ///< and of rooms from standing upright on their floor.
 
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("right_angle_rad", right_angle_rad);
+    a("upright_rad", upright_rad);
+    a("floor_rad", floor_rad);
+  }
+
   friend bool operator==(const RightAngles& a, const RightAngles& b) {
     return a.right_angle_rad == b.right_angle_rad && a.upright_rad == b.upright_rad &&
            a.floor_rad == b.floor_rad;

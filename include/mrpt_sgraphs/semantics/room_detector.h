@@ -23,6 +23,10 @@ class RoomDetector {
   ///               one whose cloud was let go of is still in its room.
   RoomDetection detect(const GraphSnapshot& graph);
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a);
+
  private:
   struct State;  ///< Not in the header: OctoMap and OpenCV.
 

@@ -44,6 +44,18 @@ class RoomLayer {
   /// To be called after an optimization: outlines and doorways follow their rooms.
   void follow(LayeredGraph* graph);
 
+  /// All that it knows, for a run that goes on later: see geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("known", known_);
+    a("missed", missed_);
+    a("grown", grown_);
+    a("exactness", exactness_);
+    a("measured_walls", measured_walls_);
+    a("measured_keyframes", measured_keyframes_);
+    a("losses", losses_);
+  }
+
  private:
   /// A doubtful wall must not cost a room its id and its name.
   static constexpr int kMaxMissed = 3;
@@ -55,6 +67,13 @@ class RoomLayer {
     /// How outline and doorways move with the room. None: not yet, the room has new factors and is
     /// not where they want it.
     std::optional<Pose> T_room_anchor;
+
+    template <typename Archive>
+    void archive(Archive& a) {
+      a("room", room);
+      a("doorways_anchor", doorways_anchor);
+      a("T_room_anchor", T_room_anchor);
+    }
   };
 
   static Known shapeOf(const DetectedRoom& room, const RoomAttributes& attributes,

@@ -17,6 +17,8 @@ class ScanContext {
   static constexpr int kRings = 24;
   static constexpr int kSectors = 72;
 
+  ScanContext() = default;
+
   /// @param R_level_base  Makes the cloud horizontal.
   ScanContext(const Cloud& cloud_base, const Eigen::Matrix3d& R_level_base);
 
@@ -25,6 +27,11 @@ class ScanContext {
     double yaw_rad = 0.0;     ///< of that rotation: R_this_other about the vertical
   };
   Comparison compare(const ScanContext& other) const;
+
+  template <typename Archive>
+  void archive(Archive& a) {
+    a.raw(occupied_.data(), static_cast<std::size_t>(occupied_.size()) * sizeof(float));
+  }
 
  private:
   Eigen::Matrix<float, kRings, kSectors> occupied_;  ///< a column a sector, unit length or zero

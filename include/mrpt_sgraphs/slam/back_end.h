@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
+#include "mrpt_sgraphs/io/state_files.h"
 #include "mrpt_sgraphs/semantics/room_detector.h"
 #include "mrpt_sgraphs/slam/back_end_config.h"
 #include "mrpt_sgraphs/slam/graph_slam.h"
@@ -28,11 +30,21 @@ class BackEnd {
   void addKeyframe(const Keyframe& keyframe, double segment_ms);
 
   std::size_t scans() const { return log_.scans(); }
+  std::optional<double> stamp_s() const { return log_.stamp_s(); }  ///< Of the last scan.
   GraphSnapshotConstPtr graph() const { return graph_slam_.snapshot(); }
 
-  /// Everything so far, with the parameters of the back end, after what the stages have put off: see
-  /// GraphSlam::finish. `wall_s` is the caller's to fill in.
+  /// To be called when a run is over: see GraphSlam::finish.
+  void finish();
+
+  /// Everything so far, with the parameters of the back end, and all that is needed to go on.
+  /// `wall_s` is the caller's to fill in.
   RunRecord record();
+
+  /// What record() is to keep of its state.
+  void writeState(StateWriter* state);
+  /// Into a new one. The parameters are its own.
+  /// @throws std::runtime_error as StateReader does.
+  void restore(const StateReader& state);
 
  private:
   BackEndConfig config_;

@@ -58,6 +58,11 @@ class GraphSlam {
   /// The drift that the graph has found, at the newest keyframe.
   const Pose& T_map_odom() const;
 
+  /// All that it knows but for its parameters, for a run that goes on later: see geometry/archive.h.
+  /// Read into a new one. Keyframes' clouds should be known to the archive before.
+  template <typename Archive>
+  void archive(Archive& a);
+
  private:
   struct State;  ///< Not in the header: graph and solver are slow to compile.
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
@@ -42,10 +43,26 @@ class Pipeline {
   std::size_t scans() const { return back_end_.scans(); }
   GraphSnapshotConstPtr graph() const { return back_end_.graph(); }
 
-  /// Everything so far, the back end's work finished. `wall_s` is the caller's to fill in.
+  /// To be called when a run is over: see GraphSlam::finish.
+  void finish() { back_end_.finish(); }
+
+  /// Everything so far, and all that is needed to go on. `wall_s` is the caller's to fill in.
   RunRecord record();
 
+  /// Goes on where a record was made, into a new one. The parameters are its own.
+  /// @throws std::runtime_error as StateReader does, and where the record has no front end.
+  void restore(const StateReader& state);
+
+  /// Of the last scan; none before the first.
+  std::optional<double> stamp_s() const { return back_end_.stamp_s(); }
+
  private:
+  template <typename Archive>
+  void archiveFrontEnd(Archive& a) {
+    a("odometry", odometry_);
+    a("keyframes", keyframes_);
+    a("planes", planes_);
+  }
   void add(Keyframe* keyframe);
 
   SlamConfig config_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
@@ -20,7 +21,14 @@ class RunLog {
   /// Of the scan of that stamp, to the microsecond; null if there is none.
   ScanReport* report(double stamp_s);
 
+  template <typename Archive>
+  void archive(Archive& a);
+
   std::size_t scans() const { return scans_.size(); }
+  /// Of the last scan; none before the first.
+  std::optional<double> stamp_s() const {
+    return scans_.empty() ? std::nullopt : std::make_optional(scans_.back().stamp_s);
+  }
   const ScanTrajectory& trajectory() const { return trajectory_; }
 
   /// All of it with the graph as it is now. Parameters and `wall_s` are the caller's to fill in.

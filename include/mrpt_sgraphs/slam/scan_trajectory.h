@@ -19,6 +19,11 @@ class ScanTrajectory {
   /// by time; past the last keyframe that one's.
   Trajectory corrected(const GraphSnapshot& graph) const;
 
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("odometry", odometry_);
+  }
+
  private:
   Trajectory odometry_;
 };
