@@ -75,6 +75,7 @@ Cloud::Ptr readCloud(const std::string& content, const std::string& name) {
   cloud->points.resize(points);
   const char* at = content.data() + first;
   for (Point& point : cloud->points) {
+    point.data[3] = 1.0F;
     forEachMember(point, [&at](void* member, std::size_t size) {
       std::memcpy(member, at, size);
       at += size;

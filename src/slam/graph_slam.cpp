@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "mrpt_sgraphs/frontend/ground_layer.h"
 #include "mrpt_sgraphs/frontend/wall_layer.h"
@@ -49,6 +50,7 @@ struct GraphSlam::State {
   double reunion_tried_at_m = -std::numeric_limits<double>::infinity();
   std::unique_ptr<Stages> stages;
   std::optional<FloorId> loop_storey;  ///< Where all of the last loop lies.
+  std::optional<LoopClosure> session_link;  ///< How the next keyframe is reached; none: by odometry.
 };
 
 /// The planes of the newest keyframe.
@@ -185,9 +187,10 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
                                 std::to_string(before->stamp_s) + " s");
   }
 
+  const bool needs_odometry = !before->keyframes.empty() && !state_->session_link;
   const bool known =
       keyframe.covariance.allFinite() && keyframe.covariance.llt().info() == Eigen::Success;
-  if (!before->keyframes.empty() && !known) {
+  if (needs_odometry && !known) {
     throw std::invalid_argument("the covariance of a keyframe is not positive definite");
   }
 
@@ -197,8 +200,17 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
   attributes.cloud = keyframe.cloud;
   attributes.planes = keyframe.planes;
   KeyframeOutcome outcome;
+  std::optional<LoopClosure> link = std::exchange(state_->session_link, std::nullopt);
+  if (link) {
+    graph.setMapOdom(orthonormalized(graph.pose(link->from) * link->T_from_to *
+                                     keyframe.T_odom_base.inverse()));
+  }
   outcome.id = graph.addKeyframe(graph.T_map_odom() * keyframe.T_odom_base, attributes);
-  if (!before->keyframes.empty()) {
+  if (link) {
+    link->to = outcome.id;
+    state_->addLoop(*link);
+    ++outcome.loop_closures;
+  } else if (!before->keyframes.empty()) {
     const KeyframeNode& last = before->keyframes.back();
     graph.addFactor(std::make_shared<RelativePoseFactor>(
         last.id, outcome.id, last.T_odom_base.inverse() * keyframe.T_odom_base,
@@ -217,6 +229,11 @@ KeyframeOutcome GraphSlam::addKeyframe(const Keyframe& keyframe) {
   }
   state_->compress(false, &outcome.optimizations);
   return outcome;
+}
+
+void GraphSlam::beginSession(const LoopClosure& link) {
+  state_->graph.handle(link.from);
+  state_->session_link = link;
 }
 
 std::vector<OptimizationSummary> GraphSlam::setFloors(const FloorDetection& detection) {

@@ -149,7 +149,7 @@ TEST(Archive, RefusesDamagedBytesAndSaysWhere) {
     reader("outer", outer);
     FAIL();
   } catch (const ArchiveError& error) {
-    EXPECT_STREQ(error.what(), "byte 2 (outer[0].list): something else begins here");
+    EXPECT_STREQ(error.what(), "byte 2 (outer.list): something else begins here");
   }
 }
 

@@ -82,6 +82,7 @@ void part(Archive& a, CellBox& box) {
 template <typename Archive>
 void part(Archive& a, Point& point) {
   a.raw(point.data, 3 * sizeof(float));
+  point.data[3] = 1.0F;
   a.item(point.intensity);
   a.item(point.time);
   a.item(point.ring);

@@ -9,6 +9,7 @@
 #include "mrpt_sgraphs/graph/snapshot.h"
 #include "mrpt_sgraphs/semantics/detected_room.h"
 #include "mrpt_sgraphs/semantics/floor_detector.h"
+#include "mrpt_sgraphs/semantics/loop_closer.h"
 #include "mrpt_sgraphs/slam/graph_slam_config.h"
 #include "mrpt_sgraphs/solver/optimization_summary.h"
 
@@ -35,6 +36,12 @@ class GraphSlam {
   /// @throws std::invalid_argument for a keyframe without a cloud, not newer than the last one, or
   ///         with a covariance that is not positive definite; the graph is then as it was.
   KeyframeOutcome addKeyframe(const Keyframe& keyframe);
+
+  /// The next keyframe is the first of another session in this map: no odometry leads to it, and
+  /// its own begins anywhere. It was found from another keyframe.
+  /// @param link  Its `to` is the next keyframe, whatever it says.
+  /// @throws std::out_of_range if `from` is not in the graph.
+  void beginSession(const LoopClosure& link);
 
   /// Brings floors and rooms in line with what was detected in this graph or an older one, and
   /// optimizes if there are new factors.

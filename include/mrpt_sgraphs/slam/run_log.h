@@ -17,6 +17,7 @@ class RunLog {
  public:
   void addScan(const ScanMotion& scan, const ScanReport& report);
   void add(const std::vector<OptimizationSummary>& optimizations);
+  void beginSession() { trajectory_.beginSession(); }
 
   /// Of the scan of that stamp, to the microsecond; null if there is none.
   ScanReport* report(double stamp_s);

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "mrpt_sgraphs/graph/snapshot.h"
 #include "mrpt_sgraphs/io/tum.h"
 
@@ -11,6 +14,10 @@ namespace mrpt_sgraphs {
 class ScanTrajectory {
  public:
   void add(double stamp_s, const Pose& T_odom_base) { odometry_.push_back({stamp_s, T_odom_base}); }
+
+  /// The next scan is the first of another session: odometry begins again, and there is no way
+  /// from what was before.
+  void beginSession() { sessions_.push_back(odometry_.size()); }
 
   /// One line a scan, as the front end alone said: T_odom_base.
   const Trajectory& odometry() const { return odometry_; }
@@ -22,10 +29,12 @@ class ScanTrajectory {
   template <typename Archive>
   void archive(Archive& a) {
     a("odometry", odometry_);
+    a("sessions", sessions_);
   }
 
  private:
   Trajectory odometry_;
+  std::vector<std::size_t> sessions_;  ///< The first scan of each but the first one.
 };
 
 }  // namespace mrpt_sgraphs
