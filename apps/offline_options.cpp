@@ -50,6 +50,7 @@ po::options_description describedOptions(OfflineOptions* options) {
       "closures make of it");
   add("base-frame", po::value(&options->base_frame),
       "frame whose trajectory is wanted (default: that of the clouds)");
+  add("start", po::value(&options->bags.start_s), "begin so many seconds into the bag");
   add("duration", po::value(&options->bags.duration_s), "stop after so many seconds of the bag");
   add("quiet", po::bool_switch(&options->quiet), "no progress bar, no warnings of single scans");
   add("help,h", "shows this");
@@ -113,6 +114,9 @@ std::optional<OfflineOptions> parseOfflineOptions(int argc, char** argv) {
   po::notify(values);
   if (options.out.empty() && options.dump.empty()) {
     throw po::error("the option '--out' (or '--dump') is required but missing");
+  }
+  if (values.count("start") > 0 && !(options.bags.start_s >= 0.0)) {
+    throw po::error("--start must not be negative");
   }
   if (values.count("duration") > 0 && !(options.bags.duration_s > 0.0)) {
     throw po::error("--duration must be positive");

@@ -96,7 +96,7 @@ Played playBags(const OfflineOptions& options, ProgressBar* bar, Remarks* remark
 
 Played replay(const OfflineOptions& options, ProgressBar* bar, Remarks* remarks) {
   BackEnd back_end(configOf(options));
-  FrontEndBag bag(options.replay, options.bags.duration_s);
+  FrontEndBag bag(options.replay, options.bags.start_s, options.bags.duration_s);
   requireWritableFolders(options);
   double known_until_s = -std::numeric_limits<double>::infinity();
   if (const auto state = loaded(options)) {

@@ -32,11 +32,16 @@ constexpr char kBaseFrame[] = "base_link";
 constexpr char kLidarFrame[] = "lidar";
 constexpr char kImuFrame[] = "imu_link";
 
-ros::Time stampOf(int64_t time_ns) {
-  constexpr int64_t kNsPerSecond = 1'000'000'000;
-  return {static_cast<uint32_t>(sim::kStartOfRun_s + time_ns / kNsPerSecond),
-          static_cast<uint32_t>(time_ns % kNsPerSecond)};
-}
+/// The robot's clock.
+struct Clock {
+  int64_t start_s;
+
+  ros::Time at(int64_t time_ns) const {
+    constexpr int64_t kNsPerSecond = 1'000'000'000;
+    return {static_cast<uint32_t>(start_s + time_ns / kNsPerSecond),
+            static_cast<uint32_t>(time_ns % kNsPerSecond)};
+  }
+};
 
 template <typename Message>
 void toMessage(const Eigen::Vector3d& v, Message& message) {
@@ -55,9 +60,10 @@ geometry_msgs::Quaternion toMessage(const Eigen::Matrix3d& rotation) {
   return message;
 }
 
-geometry_msgs::TransformStamped transform(const char* frame, const char* child, const Pose& T) {
+geometry_msgs::TransformStamped transform(const Clock& clock, const char* frame, const char* child,
+                                          const Pose& T) {
   geometry_msgs::TransformStamped message;
-  message.header.stamp = stampOf(0);
+  message.header.stamp = clock.at(0);
   message.header.frame_id = frame;
   message.child_frame_id = child;
   toMessage(T.translation(), message.transform.translation);
@@ -65,9 +71,10 @@ geometry_msgs::TransformStamped transform(const char* frame, const char* child, 
   return message;
 }
 
-sensor_msgs::Imu toMessage(const sim::ImuSample& sample, const sim::ImuNoise& noise) {
+sensor_msgs::Imu toMessage(const Clock& clock, const sim::ImuSample& sample,
+                           const sim::ImuNoise& noise) {
   sensor_msgs::Imu message;
-  message.header.stamp = stampOf(sample.time_ns);
+  message.header.stamp = clock.at(sample.time_ns);
   message.header.frame_id = kImuFrame;
   message.orientation.w = 1.0;
   message.orientation_covariance[0] = -1.0;  // there is no orientation
@@ -80,7 +87,8 @@ sensor_msgs::Imu toMessage(const sim::ImuSample& sample, const sim::ImuNoise& no
   return message;
 }
 
-nav_msgs::Odometry toMessage(const sim::OdometrySample& sample, const sim::OdometryNoise& noise) {
+nav_msgs::Odometry toMessage(const Clock& clock, const sim::OdometrySample& sample,
+                             const sim::OdometryNoise& noise) {
   // What a driver would claim: position as good as its scale, heading as its bias and walk.
   constexpr double kVelocitySigma_m_s = 0.03;
   constexpr double kRateSigma_rad_s = 0.02;
@@ -88,7 +96,7 @@ nav_msgs::Odometry toMessage(const sim::OdometrySample& sample, const sim::Odome
   const double yaw_rad = 0.005 + noise.yaw_rate_bias_rad_s * 1e-9 * double(sample.time_ns) +
                          noise.yaw_walk_rad * std::sqrt(sample.distance_m);
   nav_msgs::Odometry message;
-  message.header.stamp = stampOf(sample.time_ns);
+  message.header.stamp = clock.at(sample.time_ns);
   message.header.frame_id = kOdomFrame;
   message.child_frame_id = kBaseFrame;
   toMessage(sample.T_odom_base.translation(), message.pose.pose.position);
@@ -105,9 +113,10 @@ nav_msgs::Odometry toMessage(const sim::OdometrySample& sample, const sim::Odome
   return message;
 }
 
-sensor_msgs::PointCloud2 toMessage(const sim::LidarScan& scan, const sim::LidarModel& model) {
+sensor_msgs::PointCloud2 toMessage(const Clock& clock, const sim::LidarScan& scan,
+                                   const sim::LidarModel& model) {
   sensor_msgs::PointCloud2 message;
-  message.header.stamp = stampOf(scan.start_ns);
+  message.header.stamp = clock.at(scan.start_ns);
   message.header.frame_id = kLidarFrame;
   sim::EncodedCloud cloud = sim::encode(scan, model, message.header.stamp.toSec());
   for (const sim::EncodedCloud::Field& field : cloud.fields) {
@@ -144,34 +153,36 @@ class Progress {
 };
 
 /// The fixed frames, latched as tf2's static broadcaster does.
-void writeStaticTransforms(rosbag::Bag& bag, const sim::Simulation& simulation) {
+void writeStaticTransforms(rosbag::Bag& bag, const Clock& clock,
+                           const sim::Simulation& simulation) {
   tf2_msgs::TFMessage transforms;
-  transforms.transforms = {transform(kBaseFrame, kLidarFrame, simulation.T_base_lidar()),
-                           transform(kBaseFrame, kImuFrame, Pose::Identity())};
+  transforms.transforms = {transform(clock, kBaseFrame, kLidarFrame, simulation.T_base_lidar()),
+                           transform(clock, kBaseFrame, kImuFrame, Pose::Identity())};
   using Traits = ros::message_traits::MD5Sum<tf2_msgs::TFMessage>;
   const auto header = boost::make_shared<ros::M_string>();
   (*header)["type"] = ros::message_traits::DataType<tf2_msgs::TFMessage>::value();
   (*header)["md5sum"] = Traits::value();
   (*header)["message_definition"] = ros::message_traits::Definition<tf2_msgs::TFMessage>::value();
   (*header)["latching"] = "1";
-  bag.write("/tf_static", stampOf(0), transforms, header);
+  bag.write("/tf_static", clock.at(0), transforms, header);
 }
 
 void writeBag(const std::string& path, sim::Simulation& simulation) {
   rosbag::Bag bag(path, rosbag::bagmode::Write);
   bag.setCompression(rosbag::compression::LZ4);
-  writeStaticTransforms(bag, simulation);
+  const Clock clock{simulation.config().start_s};
+  writeStaticTransforms(bag, clock, simulation);
   const Progress progress(simulation.duration_s());
   const sim::LidarModel& model = simulation.config().lidar;
   sim::MeasurementSink sink;
   sink.imu = [&](const sim::ImuSample& sample) {
-    bag.write("/imu", stampOf(sample.time_ns), toMessage(sample, sim::ImuNoise{}));
+    bag.write("/imu", clock.at(sample.time_ns), toMessage(clock, sample, sim::ImuNoise{}));
   };
   sink.odometry = [&](const sim::OdometrySample& sample) {
-    bag.write("/odom", stampOf(sample.time_ns), toMessage(sample, sim::OdometryNoise{}));
+    bag.write("/odom", clock.at(sample.time_ns), toMessage(clock, sample, sim::OdometryNoise{}));
   };
   sink.scan = [&](const sim::LidarScan& scan) {
-    bag.write("/points", stampOf(scan.start_ns + scan.period_ns), toMessage(scan, model));
+    bag.write("/points", clock.at(scan.start_ns + scan.period_ns), toMessage(clock, scan, model));
     progress.at(1e-9 * static_cast<double>(scan.start_ns + scan.period_ns));
   };
   simulation.run(sink);

@@ -20,7 +20,7 @@ class Arguments {
   Arguments(int argc, const char* const* argv) {
     static const std::set<std::string> known{"--building", "--sensor",   "--seed", "--out",
                                              "--gait",     "--duration", "--rate", "--rotate-deg",
-                                             "--tours"};
+                                             "--tours",    "--start-stamp"};
     for (int k = 1; k < argc; k += 2) {
       const std::string option = argv[k];
       if (known.count(option) == 0) throw std::invalid_argument("unknown option '" + option + "'");
@@ -100,6 +100,12 @@ Options parseOptions(int argc, const char* const* argv) {
   if (arguments.has("--duration")) {
     options.simulation.max_duration_s = arguments.positive("--duration");
   }
+  if (arguments.has("--start-stamp")) {
+    const uint64_t start_s = arguments.whole("--start-stamp");
+    constexpr uint64_t kLast_s = 4'000'000'000;  // stamps have 32 bits of seconds
+    if (start_s > kLast_s) throw std::invalid_argument("--start-stamp must not be above 4000000000");
+    options.simulation.start_s = static_cast<int64_t>(start_s);
+  }
   if (arguments.has("--rate")) {
     options.simulation.lidar.rate_hz = arguments.positive("--rate");
     constexpr double kFastest_hz = 100.0;  // no spinning lidar turns faster
@@ -129,6 +135,7 @@ std::string usage() {
          "                     building.json}\n"
          "  --gait NAME        legged (default) or wheeled\n"
          "  --tours N          walks the tour N times, one after the other (default 1)\n"
+         "  --start-stamp S    of the robot's clock, in whole seconds since 1970: another day's run\n"
          "  --duration S       stops after S seconds, if that is before the end\n"
          "  --rate HZ          sweeps per second (default 10)\n"
          "  --rotate-deg A     turns the building and the walk in it by A degrees about the\n"

@@ -16,8 +16,8 @@
 
 namespace mrpt_sgraphs::sim {
 
-/// When runs start, in seconds since 1970: a round number that is far from zero, as real stamps
-/// are.
+/// When runs start unless told otherwise, in seconds since 1970: a round number that is far from
+/// zero, as real stamps are.
 constexpr int64_t kStartOfRun_s = 1'700'000'000;
 
 struct SimulationConfig {
@@ -25,6 +25,7 @@ struct SimulationConfig {
   Robot robot;
   uint64_t seed = 1;
   double turn_rad = 0.0;  ///< Of the building and the walk in it about the origin: see walkTour.
+  int64_t start_s = kStartOfRun_s;  ///< By the robot's clock, since 1970.
   double max_duration_s = std::numeric_limits<double>::infinity();  ///< Cuts the tour short.
 };
 

@@ -51,7 +51,7 @@ std::string tum(const Simulation& simulation, const Pose& T_base_sensor) {
     char line[256];
     std::snprintf(line, sizeof line,
                   "%" PRId64 ".%09" PRId64 " %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n",
-                  kStartOfRun_s + start_ns / kNsPerSecond, start_ns % kNsPerSecond, p.x(), p.y(),
+                  simulation.config().start_s + start_ns / kNsPerSecond, start_ns % kNsPerSecond, p.x(), p.y(),
                   p.z(), q.x(), q.y(), q.z(), q.w());
     text += line;
   }

@@ -18,7 +18,7 @@ namespace mrpt_sgraphs {
 
 struct BagSource::Bags {
   explicit Bags(const BagRequest& request)
-      : request(request), open(request.files, request.duration_s) {}
+      : request(request), open(request.files, request.start_s, request.duration_s) {}
 
   BagRequest request;
   OpenBags open;

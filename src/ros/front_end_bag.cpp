@@ -149,15 +149,15 @@ class KeyframeGatherer {
 }  // namespace
 
 struct FrontEndBag::Bags {
-  Bags(const std::vector<std::string>& files, double duration_s)
-      : open(files, duration_s), topics(namespaceIn(open)) {}
+  Bags(const std::vector<std::string>& files, double start_s, double duration_s)
+      : open(files, start_s, duration_s), topics(namespaceIn(open)) {}
 
   OpenBags open;
   const Topics topics;
 };
 
-FrontEndBag::FrontEndBag(const std::vector<std::string>& files, double duration_s)
-    : bags_(std::make_unique<Bags>(files, duration_s)) {
+FrontEndBag::FrontEndBag(const std::vector<std::string>& files, double start_s, double duration_s)
+    : bags_(std::make_unique<Bags>(files, start_s, duration_s)) {
   const Topics& topics = bags_->topics;
   bags_->open.checkTopic<ScanOdometry>(topics.scan);
   bags_->open.checkTopic<KeyframeStamped>(topics.keyframe);

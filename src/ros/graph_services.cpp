@@ -57,6 +57,7 @@ GraphServices::GraphServices(ros::NodeHandle& nh, GraphSlamThread& slam, std::st
     : slam_(slam),
       map_frame_(std::move(map_frame)),
       dump_(nh.advertiseService("dump", &GraphServices::dump, this)),
+      load_(nh.advertiseService("load", &GraphServices::load, this)),
       optimize_(nh.advertiseService("optimize", &GraphServices::optimize, this)),
       save_map_(nh.advertiseService("save_map", &GraphServices::saveMap, this)) {}
 
@@ -70,6 +71,14 @@ bool GraphServices::dump(Dump::Request& request, Dump::Response& response) {
     text << record.trajectory.size() << " scans and " << record.graph->keyframes.size()
          << " keyframes in " << folder.string() << ": " << filesIn(folder);
     return text.str();
+  });
+}
+
+bool GraphServices::load(Load::Request& request, Load::Response& response) {
+  return answer(response, [&] {
+    if (request.folder.empty()) throw std::invalid_argument("nothing was loaded: no folder given");
+    const fs::path folder = fs::absolute(request.folder);
+    return folder.string() + ": " + slam_.load(folder.string()).get();
   });
 }
 

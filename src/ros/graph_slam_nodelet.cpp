@@ -5,7 +5,6 @@
 #include <ros/spinner.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <pluginlib/class_list_macros.hpp>
@@ -18,6 +17,7 @@
 #include "graph_publisher.h"
 #include "graph_services.h"
 #include "graph_slam_thread.h"
+#include "known_clouds.h"
 #include "live_hierarchy.h"
 #include "mrpt_sgraphs/ros/conversions.h"
 #include "mrpt_sgraphs/ros/detections.h"
@@ -27,17 +27,6 @@
 
 namespace mrpt_sgraphs {
 namespace {
-
-/// Where a map goes that time ran away from: named by its last stamp, so that a bag that is played
-/// again and again fills one folder.
-std::string rescueFolder(double last_stamp_s) {
-  const char* const ros_home = std::getenv("ROS_HOME");
-  const char* const home = std::getenv("HOME");
-  const std::string base = ros_home != nullptr ? ros_home
-                           : home != nullptr   ? std::string(home) + "/.ros"
-                                               : ".";
-  return base + "/mrpt_sgraphs/until_" + std::to_string(last_stamp_s);
-}
 
 std::size_t droppedIn(const GraphSnapshot& graph) {
   return static_cast<std::size_t>(
@@ -55,12 +44,15 @@ std::size_t droppedIn(const GraphSnapshot& graph) {
 ///             scan_odometry    (mrpt_sgraphs/ScanOdometry)     for the trajectory of every scan
 ///             floors           (mrpt_sgraphs/Floors)           found in graphs of ours
 ///             rooms            (mrpt_sgraphs/Rooms)            likewise
-/// Publishes   see GraphPublisher and DisplayPublisher
+///             initialpose      (geometry_msgs/PoseWithCovarianceStamped) where the robot is in a map
+///                              that was loaded
+/// Publishes   see GraphPublisher, DisplayPublisher and KnownClouds
 /// Serves      see GraphServices; LiveHierarchy in hierarchy
 /// Parameters  loop_closure/*, walls/*, ground/*, rooms/*, hierarchy/*, solver/*, and for the
 ///             record of a run all of SlamConfig
 ///             frames/map, frames/odom                          FramesConfig
 ///             display/*                                        DisplayConfig
+///             map                                              a folder to begin with; empty: none
 class GraphSlamNodelet final : public PipelineNodelet {
  private:
   using CloudConstPtr = boost::shared_ptr<const Cloud>;
@@ -72,18 +64,21 @@ class GraphSlamNodelet final : public PipelineNodelet {
     const auto display = section<DisplayConfig>("display");
     detectors_wanted_ = config.floors.enabled && config.room_detection.enabled;
     ros::NodeHandle& nh = getNodeHandle();
+    map_frame_ = frameName(frames.map);
     publisher_ = std::make_unique<GraphPublisher>(nh, frames);
+    known_clouds_ = std::make_unique<KnownClouds>(nh);
     slam_ = std::make_unique<GraphSlamThread>(
         config, GraphSlamThread::Listener{
-                    [this](const GraphSnapshotConstPtr& graph, std::uint32_t session) {
-                      onGraph(graph, session);
+                    [this](const GraphSnapshotConstPtr& graph, std::uint32_t number) {
+                      onGraph(graph, number);
                     },
+                    [this](const GraphSnapshotConstPtr& graph) { known_clouds_->publish(graph); },
                     [this](const OptimizationSummary& summary) { onOptimization(summary); },
                     [this](const std::string& problem) { NODELET_WARN("%s", problem.c_str()); }});
 
     ros::NodeHandle patient_nh(nh);
     patient_nh.setCallbackQueue(&patient_queue_);
-    services_ = std::make_unique<GraphServices>(patient_nh, *slam_, frameName(frames.map));
+    services_ = std::make_unique<GraphServices>(patient_nh, *slam_, map_frame_);
     display_ = std::make_unique<DisplayPublisher>(
         patient_nh, GraphView{frameName(frames.map), display.layer_lift_m},
         DisplayPublisher::Source{[this] { return publisher_->graph(); },
@@ -104,6 +99,14 @@ class GraphSlamNodelet final : public PipelineNodelet {
     planes_sub_ = nh.subscribe("keyframe_planes", kQueueSize, &GraphSlamNodelet::onPlanes, this);
     floors_sub_ = nh.subscribe("floors", kQueueSize, &GraphSlamNodelet::onFloors, this);
     rooms_sub_ = nh.subscribe("rooms", kQueueSize, &GraphSlamNodelet::onRooms, this);
+    initial_pose_sub_ = nh.subscribe("initialpose", 1, &GraphSlamNodelet::onInitialPose, this);
+    loadMap();
+  }
+
+  void loadMap() {
+    const auto folder = getPrivateNodeHandle().param<std::string>("map", "");
+    if (folder.empty()) return;
+    NODELET_INFO("%s", slam_->load(folder).get().c_str());
   }
 
   void onScan(const ScanOdometryConstPtr& msg) {
@@ -111,7 +114,6 @@ class GraphSlamNodelet final : public PipelineNodelet {
     const auto motion = toScanMotion(*msg);
     if (!motion) return;
     slam_->addScan(*motion, toScanReport(*msg));
-    last_stamp_s_ = motion->stamp_s;
   }
 
   void onKeyframe(const KeyframeStampedConstPtr& msg) {
@@ -162,18 +164,28 @@ class GraphSlamNodelet final : public PipelineNodelet {
     if (session > session_) {
       session_ = session;
       matcher_.clear();
-      slam_->startAgain(session, rescueFolder(last_stamp_s_));
+      slam_->startAgain();
     }
     return session == session_;
   }
 
-  void onGraph(const GraphSnapshotConstPtr& graph, std::uint32_t session) {
-    if (session != session_of_graph_) {
-      session_of_graph_ = session;
+  void onInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& msg) {
+    const auto T_map_base = toPose(msg->pose.pose);
+    if (frameName(msg->header.frame_id) != map_frame_) {
+      NODELET_WARN("initialpose is in '%s', not in '%s'", msg->header.frame_id.c_str(),
+                   map_frame_.c_str());
+    } else if (T_map_base) {
+      slam_->guess(*T_map_base);
+    }
+  }
+
+  void onGraph(const GraphSnapshotConstPtr& graph, std::uint32_t number) {
+    if (number != number_of_graph_) {
+      number_of_graph_ = number;
       const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
       last_optimization_.reset();
     }
-    publisher_->publish(graph, session);
+    publisher_->publish(graph, number);
   }
 
   void onOptimization(const OptimizationSummary& summary) {
@@ -230,11 +242,12 @@ class GraphSlamNodelet final : public PipelineNodelet {
   Throttle warning_;
   bool detectors_wanted_ = true;
   std::uint32_t session_ = 0;
-  double last_stamp_s_ = 0.0;
   std::mutex last_optimization_mutex_;  ///< Guards the next one.
   std::optional<OptimizationSummary> last_optimization_;
-  std::uint32_t session_of_graph_ = 0;  ///< Belongs to the back end's thread.
+  std::uint32_t number_of_graph_ = 0;  ///< Belongs to the back end's thread.
+  std::string map_frame_;
   std::unique_ptr<GraphPublisher> publisher_;
+  std::unique_ptr<KnownClouds> known_clouds_;
   std::unique_ptr<GraphSlamThread> slam_;
   ros::CallbackQueue patient_queue_;  ///< For what may wait for the back end.
   std::unique_ptr<GraphServices> services_;
@@ -247,7 +260,8 @@ class GraphSlamNodelet final : public PipelineNodelet {
   ros::Subscriber cloud_sub_;
   ros::Subscriber planes_sub_;
   ros::Subscriber floors_sub_;
-  ros::Subscriber rooms_sub_;  ///< Last members: no callback outlives the others.
+  ros::Subscriber rooms_sub_;
+  ros::Subscriber initial_pose_sub_;  ///< Last members: no callback outlives the others.
 };
 
 }  // namespace mrpt_sgraphs

@@ -13,10 +13,12 @@
 #include "mrpt_sgraphs/slam/graph_slam.h"
 #include "mrpt_sgraphs/slam/graph_state.h"
 #include "mrpt_sgraphs/slam/run_log.h"
+#include "mrpt_sgraphs/slam/waiting_session.h"
+#include "rescue_folder.h"
 
 namespace mrpt_sgraphs {
 
-/// All that was made of one run of the sensor: until its time starts again.
+/// All that was made of one graph: until the sensor's time starts again, or another one is loaded.
 struct GraphSlamThread::Session {
   Session(const SlamConfig& config, std::uint32_t number) : number(number), slam(config) {}
 
@@ -24,6 +26,7 @@ struct GraphSlamThread::Session {
   GraphSlam slam;
   GraphSnapshotConstPtr told;  ///< The listener knows it.
   RunLog log;
+  std::unique_ptr<WaitingSession> waiting;  ///< That is to join the map; null: none.
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };
 
@@ -43,27 +46,64 @@ GraphSlamThread::~GraphSlamThread() {
 }
 
 void GraphSlamThread::addScan(const ScanMotion& scan, const ScanReport& report) {
-  post([this, scan, report] { session_->log.addScan(scan, report); });
+  post([this, scan, report] {
+    if (session_->waiting != nullptr) {
+      session_->waiting->addScan(scan, report);
+    } else {
+      session_->log.addScan(scan, report);
+    }
+  });
 }
 
 void GraphSlamThread::addKeyframe(const Keyframe& keyframe, double segment_ms) {
   post([this, keyframe, segment_ms] {
-    CpuStopwatch stopwatch;
-    const KeyframeOutcome outcome = session_->slam.addKeyframe(keyframe);
-    const double keyframe_ms = stopwatch.lap();
-    if (ScanReport* const scan = session_->log.report(keyframe.stamp_s)) {
-      scan->keyframe = true;
-      scan->segment_ms = segment_ms;
-      scan->keyframe_ms = keyframe_ms;
-      scan->rss_mib = residentMemory_MiB();
+    if (session_->waiting == nullptr) {
+      addToMap(keyframe, segment_ms);
+    } else if (const auto link = session_->waiting->addKeyframe(keyframe, segment_ms)) {
+      join(*link);
     }
-    tell(outcome.optimizations);
   });
 }
 
-void GraphSlamThread::setFloors(std::uint32_t session, const FloorDetection& floors) {
-  post([this, session, floors] {
-    if (session != session_->number) return;
+void GraphSlamThread::guess(const Pose& T_map_base) {
+  post([this, T_map_base] {
+    if (session_->waiting == nullptr) return;
+    if (const auto link = session_->waiting->guess(T_map_base)) {
+      join(*link);
+    } else {
+      listener_.on_problem("The robot is not where it was said to be: " +
+                           session_->waiting->undecided() + ".");
+    }
+  });
+}
+
+void GraphSlamThread::join(const LoopClosure& link) {
+  const auto waiting = std::move(session_->waiting);
+  session_->slam.beginSession(link);
+  session_->log.beginSession();
+  waiting->replay([this](const ScanMotion& scan,
+                         const ScanReport& report) { session_->log.addScan(scan, report); },
+                  [this](const Keyframe& keyframe, double segment_ms) {
+                    addToMap(keyframe, segment_ms);
+                  });
+}
+
+void GraphSlamThread::addToMap(const Keyframe& keyframe, double segment_ms) {
+  CpuStopwatch stopwatch;
+  const KeyframeOutcome outcome = session_->slam.addKeyframe(keyframe);
+  const double keyframe_ms = stopwatch.lap();
+  if (ScanReport* const scan = session_->log.report(keyframe.stamp_s)) {
+    scan->keyframe = true;
+    scan->segment_ms = segment_ms;
+    scan->keyframe_ms = keyframe_ms;
+    scan->rss_mib = residentMemory_MiB();
+  }
+  tell(outcome.optimizations);
+}
+
+void GraphSlamThread::setFloors(std::uint32_t number, const FloorDetection& floors) {
+  post([this, number, floors] {
+    if (number != session_->number) return;
     CpuStopwatch stopwatch;
     const auto optimizations = session_->slam.setFloors(floors);
     if (ScanReport* const scan = session_->log.report(floors.stamp_s)) {
@@ -73,10 +113,10 @@ void GraphSlamThread::setFloors(std::uint32_t session, const FloorDetection& flo
   });
 }
 
-void GraphSlamThread::setRooms(std::uint32_t session, const RoomDetection& rooms,
+void GraphSlamThread::setRooms(std::uint32_t number, const RoomDetection& rooms,
                                double detect_ms) {
-  post([this, session, rooms, detect_ms] {
-    if (session != session_->number) return;
+  post([this, number, rooms, detect_ms] {
+    if (number != session_->number) return;
     CpuStopwatch stopwatch;
     const auto optimizations = session_->slam.setRooms(rooms);
     if (ScanReport* const scan = session_->log.report(rooms.stamp_s)) {
@@ -95,22 +135,45 @@ void GraphSlamThread::setHierarchy(const HierarchyConfig& hierarchy) {
   });
 }
 
-void GraphSlamThread::startAgain(std::uint32_t session, const std::string& folder) {
-  post([this, session, folder] {
-    std::string fate = "nothing had been mapped";
-    try {
-      if (!session_->slam.snapshot()->keyframes.empty()) {
-        finish();
-        writeRun(folder, dumpNow());
-        fate = "what had been mapped lies in " + folder;
-      }
-    } catch (const std::exception& error) {
-      fate = std::string("what had been mapped is lost: ") + error.what();
-    }
-    session_ = std::make_unique<Session>(config_, session);
+void GraphSlamThread::startAgain() {
+  post([this] {
+    const std::string fate = rescue();
+    session_ = std::make_unique<Session>(config_, session_->number + 1);
     listener_.on_problem("A new graph begins; " + fate + ".");
     tellGraph();
   });
+}
+
+std::future<std::string> GraphSlamThread::load(const std::string& folder) {
+  return ask<std::string>([this, folder] {
+    const StateReader state(folder);
+    auto loaded = std::make_unique<Session>(config_, session_->number + 1);
+    readGraphState(state, &loaded->slam, &loaded->log);
+    loaded->waiting = std::make_unique<WaitingSession>(loaded->slam.snapshot(), config_);
+    const std::string fate = rescue();
+    session_ = std::move(loaded);
+    const GraphSnapshotConstPtr graph = session_->slam.snapshot();
+    listener_.on_loaded(graph);
+    tellGraph();
+    return std::to_string(graph->keyframes.size()) + " keyframes, " +
+           std::to_string(graph->walls.size()) + " walls and " +
+           std::to_string(graph->rooms.size()) + " rooms; " + fate;
+  });
+}
+
+/// So that it is not lost.
+/// @return What became of it.
+std::string GraphSlamThread::rescue() {
+  const GraphSnapshotConstPtr graph = session_->slam.snapshot();
+  if (graph->keyframes.empty()) return "nothing had been mapped";
+  const std::string folder = rescueFolder(graph->stamp_s);
+  try {
+    finish();
+    writeRun(folder, dumpNow());
+    return "what had been mapped lies in " + folder;
+  } catch (const std::exception& error) {
+    return std::string("what had been mapped is lost: ") + error.what();
+  }
 }
 
 std::future<OptimizationSummary> GraphSlamThread::optimize() {

@@ -28,8 +28,10 @@ class GraphSlamThread {
  public:
   /// All are called on the thread.
   struct Listener {
-    /// After every change, with the session that the graph is of.
+    /// After every change, with the number of the graph: it changes where another one begins.
     std::function<void(const GraphSnapshotConstPtr&, std::uint32_t)> on_graph;
+    /// Of a map that was loaded, before its graph: nobody else knows its clouds.
+    std::function<void(const GraphSnapshotConstPtr&)> on_loaded;
     std::function<void(const OptimizationSummary&)> on_optimization;
     std::function<void(const std::string&)> on_problem;  ///< One sentence.
   };
@@ -42,17 +44,26 @@ class GraphSlamThread {
   /// @param segment_ms  What its planes have cost.
   void addKeyframe(const Keyframe& keyframe, double segment_ms);
 
-  /// What was found in the graph of a session. Of one that is over, nothing is done with it.
-  void setFloors(std::uint32_t session, const FloorDetection& floors);
+  /// What was found in the graph of a number. Of one that is over, nothing is done with it.
+  void setFloors(std::uint32_t number, const FloorDetection& floors);
   /// @param detect_ms  What it has cost.
-  void setRooms(std::uint32_t session, const RoomDetection& rooms, double detect_ms);
+  void setRooms(std::uint32_t number, const RoomDetection& rooms, double detect_ms);
 
   /// From the next job on. Where the mode is another one, all that was dropped comes back.
   void setHierarchy(const HierarchyConfig& hierarchy);
 
-  /// Writes what there is into `folder`, so that it is not lost, and begins with an empty graph.
-  /// @param session  The number of what begins; the first is 0.
-  void startAgain(std::uint32_t session, const std::string& folder);
+  /// Writes what there is into rescueFolder(), so that it is not lost, and begins with an empty graph.
+  /// Their numbers are 0, 1, ...
+  void startAgain();
+
+  /// The same with a saved map. What comes after it joins it as soon as its place there is known.
+  /// @return What there is to say. What StateReader throws comes with the future, and nothing has
+  ///         changed then.
+  std::future<std::string> load(const std::string& folder);
+
+  /// Someone has pointed at where the robot is: right within a metre and half a radian. Nothing
+  /// happens where that is known.
+  void guess(const Pose& T_map_base);
 
   std::future<OptimizationSummary> optimize();
   /// What there is.
@@ -69,6 +80,10 @@ class GraphSlamThread {
 
  private:
   struct Session;
+
+  void join(const LoopClosure& link);
+  void addToMap(const Keyframe& keyframe, double segment_ms);
+  std::string rescue();
 
   void tell(const std::vector<OptimizationSummary>& optimizations);
   void tellGraph();

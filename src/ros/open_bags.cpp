@@ -34,11 +34,16 @@ void open(const std::string& file, rosbag::Bag* bag) {
 
 }  // namespace
 
-OpenBags::OpenBags(const std::vector<std::string>& files, double duration_s) {
+OpenBags::OpenBags(const std::vector<std::string>& files, double start_s, double duration_s) {
   for (const std::string& file : files) add(file);
   if (all_.size() == 0) return;  // its times would be none
   begin_ = all_.getBeginTime();
   end_ = all_.getEndTime();
+  if (start_s > duration()) {
+    throw std::runtime_error("the bags end " + std::to_string(duration()) +
+                             " s after their beginning, before they are to be read");
+  }
+  begin_ += ros::Duration(start_s);
   if (duration_s > 0.0 && duration_s < duration()) end_ = begin_ + ros::Duration(duration_s);
 }
 

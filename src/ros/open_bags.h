@@ -20,7 +20,8 @@ class OpenBags {
  public:
   /// @param duration_s  From the first message on; 0: all.
   /// @throws std::runtime_error for a file that is missing, no bag or cut short.
-  OpenBags(const std::vector<std::string>& files, double duration_s);
+  /// @param start_s  Of the messages, after the first one.
+  OpenBags(const std::vector<std::string>& files, double start_s, double duration_s);
 
   /// @throws std::runtime_error for a topic that is not in any of them or has another type: it
   /// names

@@ -7,6 +7,7 @@
 #include "mrpt_sgraphs/geometry/resident_memory.h"
 #include "mrpt_sgraphs/slam/config_file.h"
 #include "mrpt_sgraphs/slam/graph_state.h"
+#include "mrpt_sgraphs/slam/waiting_session.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -22,7 +23,44 @@ BackEndConfig withoutWallTime(BackEndConfig config) {
 BackEnd::BackEnd(const BackEndConfig& config)
     : config_(withoutWallTime(config)), graph_slam_(config_), rooms_(config.room_detection) {}
 
+BackEnd::~BackEnd() = default;
+
+void BackEnd::addScan(const ScanMotion& scan, const ScanReport& report) {
+  if (waiting_ != nullptr) {
+    waiting_->addScan(scan, report);
+  } else {
+    log_.addScan(scan, report);
+  }
+}
+
 void BackEnd::addKeyframe(const Keyframe& keyframe, double segment_ms) {
+  if (waiting_ == nullptr) {
+    addToMap(keyframe, segment_ms);
+  } else if (const auto link = waiting_->addKeyframe(keyframe, segment_ms)) {
+    join(*link);
+  }
+}
+
+void BackEnd::beginSession() {
+  waiting_ = std::make_unique<WaitingSession>(graph_slam_.snapshot(), config_);
+}
+
+std::string BackEnd::waitingFor() const {
+  return waiting_ == nullptr ? "" : waiting_->undecided();
+}
+
+void BackEnd::join(const LoopClosure& link) {
+  const auto session = std::move(waiting_);
+  graph_slam_.beginSession(link);
+  log_.beginSession();
+  session->replay([this](const ScanMotion& scan,
+                         const ScanReport& report) { log_.addScan(scan, report); },
+                  [this](const Keyframe& keyframe, double segment_ms) {
+                    addToMap(keyframe, segment_ms);
+                  });
+}
+
+void BackEnd::addToMap(const Keyframe& keyframe, double segment_ms) {
   CpuStopwatch watch;
   log_.add(graph_slam_.addKeyframe(keyframe).optimizations);
   if (config_.floors.enabled) {

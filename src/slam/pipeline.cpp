@@ -22,6 +22,7 @@ Pipeline::Pipeline(const SlamConfig& config, FrontEndListener listener)
 
 std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
                               const std::string& base_frame) {
+  beginSessionAt(raw.stamp_s);
   CpuStopwatch watch;
   const PrefilterResult scan = prefilter_.filter(raw, T_base_lidar, base_frame);
   if (scan.cloud == nullptr) return scan.problem;
@@ -33,6 +34,7 @@ std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
     return "its stamp " + std::to_string(stampOf(*scan.cloud)) +
            " is not newer than that of the scan before it; left out";
   }
+  resumes_until_s_.reset();  // it goes on
   const ScanMotion motion{odometry->stamp_s, odometry->T_odom_base, odometry->covariance};
   report.stamp_s = odometry->stamp_s;
   report.deskew_ms = odometry->deskew_ms;
@@ -70,7 +72,23 @@ RunRecord Pipeline::record() {
 
 void Pipeline::restore(const StateReader& state) {
   back_end_.restore(state);
-  state.read("front_end", [this](auto& a) { archiveFrontEnd(a); });
+  const double end_s = back_end_.stamp_s().value_or(0.0);
+  if (state.has("front_end")) {
+    state.read("front_end", [this](auto& a) { archiveFrontEnd(a); });
+    resumes_until_s_ = end_s + config_.odometry.max_gap_s;
+  } else {
+    resumes_until_s_ = end_s;
+  }
+}
+
+/// Once.
+void Pipeline::beginSessionAt(double stamp_s) {
+  if (!resumes_until_s_ || stamp_s <= *resumes_until_s_) return;
+  resumes_until_s_.reset();
+  odometry_.reset();
+  keyframes_.reset();
+  planes_.reset();
+  back_end_.beginSession();
 }
 
 }  // namespace mrpt_sgraphs

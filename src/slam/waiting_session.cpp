@@ -3,6 +3,7 @@
 
 #include "mrpt_sgraphs/slam/waiting_session.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "mrpt_sgraphs/graph/uncertainty.h"
@@ -40,9 +41,27 @@ WaitingSession::WaitingSession(GraphSnapshotConstPtr map, const BackEndConfig& c
 
 std::optional<LoopClosure> WaitingSession::addKeyframe(const Keyframe& keyframe,
                                                        double segment_ms) {
+  if (keyframe.stamp_s <= relocator_.map().stamp_s) {
+    throw std::invalid_argument("the map ends at " + std::to_string(relocator_.map().stamp_s) +
+                                " s, after this keyframe of " + std::to_string(keyframe.stamp_s) +
+                                " s: maps are continued in the order of time");
+  }
   session_.addKeyframe(keyframe);
   events_.push_back(KeyframeOfIt{keyframe, segment_ms});
   return take(relocator_.find(*session_.snapshot()));
+}
+
+void WaitingSession::replay(
+    const std::function<void(const ScanMotion&, const ScanReport&)>& on_scan,
+    const std::function<void(const Keyframe&, double segment_ms)>& on_keyframe) const {
+  for (const Event& event : events_) {
+    if (const auto* const scan = std::get_if<Scan>(&event)) {
+      on_scan(scan->motion, scan->report);
+    } else {
+      const auto& known = std::get<KeyframeOfIt>(event);
+      on_keyframe(known.keyframe, known.segment_ms);
+    }
+  }
 }
 
 std::optional<LoopClosure> WaitingSession::guess(const Pose& T_map_base) {

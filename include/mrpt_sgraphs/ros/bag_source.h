@@ -22,7 +22,8 @@ struct BagRequest {
   std::string points_topic;
   std::string odom_topic;   ///< Empty: none.
   std::string imu_topic;    ///< Empty: none.
-  double duration_s = 0.0;  ///< From the first message on; 0: all.
+  double start_s = 0.0;     ///< After the first message.
+  double duration_s = 0.0;  ///< From there on; 0: all.
 };
 
 /// Where the messages go, in the order in which they were recorded.

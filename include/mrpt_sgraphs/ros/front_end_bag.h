@@ -31,7 +31,7 @@ class FrontEndBag {
   /// @param duration_s  From the first message on; 0: all.
   /// @throws std::runtime_error for a file that is missing, no bag or cut short, if one of the
   ///         topics is not there or has another type, and if they are there in several namespaces.
-  FrontEndBag(const std::vector<std::string>& files, double duration_s);
+  FrontEndBag(const std::vector<std::string>& files, double start_s, double duration_s);
   ~FrontEndBag();
 
   /// @return What could not be read, as BagSource::play; empty if all could.

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "mrpt_sgraphs/io/state_files.h"
 #include "mrpt_sgraphs/semantics/room_detector.h"
@@ -13,6 +15,8 @@
 
 namespace mrpt_sgraphs {
 
+class WaitingSession;
+
 /// What comes after the front end, on the caller's thread: each keyframe goes into the graph, and
 /// then floors and rooms are looked for in it. The same input gives the same output, whether it
 /// comes from the front end itself or from a recording of it: its budgets are iterations, and none
@@ -20,9 +24,17 @@ namespace mrpt_sgraphs {
 class BackEnd {
  public:
   explicit BackEnd(const BackEndConfig& config);
+  ~BackEnd();
 
   /// Every scan that was placed, in their order.
-  void addScan(const ScanMotion& scan, const ScanReport& report) { log_.addScan(scan, report); }
+  void addScan(const ScanMotion& scan, const ScanReport& report);
+
+  /// What comes now is of another session in the map that was restored: odometry began again,
+  /// anywhere. It is kept until its place in the map is known, and is then told to the map as if that
+  /// had been there from the start.
+  void beginSession();
+  /// Why a session is still kept, with numbers; empty if none is.
+  std::string waitingFor() const;
 
   /// After its scan.
   /// @param segment_ms  What its planes have cost.
@@ -47,10 +59,14 @@ class BackEnd {
   void restore(const StateReader& state);
 
  private:
+  void join(const LoopClosure& link);
+  void addToMap(const Keyframe& keyframe, double segment_ms);
+
   BackEndConfig config_;
   GraphSlam graph_slam_;
   RoomDetector rooms_;
   RunLog log_;
+  std::unique_ptr<WaitingSession> waiting_;  ///< Null: none.
 };
 
 }  // namespace mrpt_sgraphs

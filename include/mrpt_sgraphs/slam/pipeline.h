@@ -31,8 +31,14 @@ class Pipeline {
  public:
   explicit Pipeline(const SlamConfig& config, FrontEndListener listener = {});
 
-  void addImu(const ImuSample& sample) { odometry_.addImu(sample); }
-  void addOdom(const OdomSample& sample) { odometry_.addOdom(sample); }
+  void addImu(const ImuSample& sample) {
+    beginSessionAt(sample.stamp_s);
+    odometry_.addImu(sample);
+  }
+  void addOdom(const OdomSample& sample) {
+    beginSessionAt(sample.stamp_s);
+    odometry_.addOdom(sample);
+  }
 
   /// Takes a scan through all of the pipeline. What happens within its sweep should have been added
   /// before: IMU and odometry up to its last point.
@@ -49,9 +55,12 @@ class Pipeline {
   /// Everything so far, and all that is needed to go on. `wall_s` is the caller's to fill in.
   RunRecord record();
 
-  /// Goes on where a record was made, into a new one. The parameters are its own.
-  /// @throws std::runtime_error as StateReader does, and where the record has no front end.
+  /// Goes on where a record was made, into a new one. The parameters are its own. What comes later
+  /// than that by a pause is another session: see BackEnd::beginSession.
+  /// @throws std::runtime_error as StateReader does.
   void restore(const StateReader& state);
+  /// Why a second session is not part of the map yet, with numbers; empty if there is none.
+  std::string waitingFor() const { return back_end_.waitingFor(); }
 
   /// Of the last scan; none before the first.
   std::optional<double> stamp_s() const { return back_end_.stamp_s(); }
@@ -64,6 +73,7 @@ class Pipeline {
     a("planes", planes_);
   }
   void add(Keyframe* keyframe);
+  void beginSessionAt(double stamp_s);
 
   SlamConfig config_;
   FrontEndListener listener_;
@@ -72,6 +82,7 @@ class Pipeline {
   KeyframeSelector keyframes_;
   PlaneObserver planes_;
   BackEnd back_end_;
+  std::optional<double> resumes_until_s_;  ///< What is newer begins a session; none: nothing does.
 };
 
 }  // namespace mrpt_sgraphs

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -19,16 +20,6 @@ namespace mrpt_sgraphs {
 /// map as if that had been there from the start.
 class WaitingSession {
  public:
-  struct Scan {
-    ScanMotion motion;
-    ScanReport report;
-  };
-  struct KeyframeOfIt {
-    Keyframe keyframe;
-    double segment_ms = 0.0;
-  };
-  using Event = std::variant<Scan, KeyframeOfIt>;
-
   WaitingSession(GraphSnapshotConstPtr map, const BackEndConfig& config);
 
   void addScan(const ScanMotion& motion, const ScanReport& report) {
@@ -43,18 +34,29 @@ class WaitingSession {
   /// @return As addKeyframe; none before the first keyframe.
   std::optional<LoopClosure> guess(const Pose& T_map_base);
 
-  /// In the order in which they came.
-  const std::deque<Event>& events() const { return events_; }
+  /// Tells all that came, in its order.
+  void replay(const std::function<void(const ScanMotion&, const ScanReport&)>& on_scan,
+              const std::function<void(const Keyframe&, double segment_ms)>& on_keyframe) const;
 
   /// Why the place is not known, with numbers.
   const std::string& undecided() const { return undecided_; }
 
  private:
+  struct Scan {
+    ScanMotion motion;
+    ScanReport report;
+  };
+  struct KeyframeOfIt {
+    Keyframe keyframe;
+    double segment_ms = 0.0;
+  };
+  using Event = std::variant<Scan, KeyframeOfIt>;
+
   std::optional<LoopClosure> take(const RelocationSearch& search);
 
   Relocator relocator_;
   GraphSlam session_;
-  std::deque<Event> events_;
+  std::deque<Event> events_;  ///< In the order in which they came.
   std::string undecided_ = "nothing was seen";
 };
 
