@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mrpt_sgraphs/frontend/thinning.h"
 #include "mrpt_sgraphs/geometry/archive.h"
 #include "mrpt_sgraphs/graph/uncertainty.h"
+#include "mrpt_sgraphs/semantics/known_surroundings.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -18,8 +18,6 @@ constexpr double kRadiusSigmas = 3.0;
 constexpr double kClimbSigmas = 3.0;
 /// Covariances that are added up know nothing of systematic errors: gates are opened by this factor.
 constexpr double kGateInflation = 4.0;
-constexpr double kRegistrationVoxel_m = 0.2;
-constexpr std::size_t kRegistrationPoints = 2500;
 /// Places that look less alike than this from above are not tried for their looks.
 constexpr double kMinSimilarity = 0.45;
 
@@ -59,17 +57,6 @@ class Levels {
   const GraphSnapshot& graph_;
   double max_step_m_;
 };
-
-std::vector<ScanPoint> pointsOf(const Cloud& cloud) {
-  const std::vector<int> kept = firstInVoxels(cloud, kRegistrationVoxel_m);
-  const std::size_t stride = kept.size() / kRegistrationPoints + 1;
-  std::vector<ScanPoint> points;
-  for (std::size_t i = 0; i < kept.size(); i += stride) {
-    const Point& p = cloud[static_cast<std::size_t>(kept[i])];
-    points.push_back({p.getVector3fMap().cast<double>(), 0.0});
-  }
-  return points;
-}
 
 }  // namespace
 
@@ -170,7 +157,7 @@ std::optional<LoopClosure> LoopCloser::verify(const Candidate& candidate,
   // says next to nothing, but keeps the equations solvable where the points do not
   prior.information = 1e-2 * Matrix12::Identity();
   const RegistrationResult fit =
-      registerScan(pointsOf(*newest.cloud), submap, prior, {prior.mean, VoxelMap::kLevels - 1},
+      registerScan(registrationPoints(*newest.cloud), submap, prior, {prior.mean, VoxelMap::kLevels - 1},
                    viewpointOf(*newest.cloud), config_.registration);
   if (!fit.converged || fit.degenerate_directions > 0 || fit.inlier_ratio < config_.min_overlap ||
       fit.rms_m > config_.max_rms_m) {

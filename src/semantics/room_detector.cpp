@@ -7,21 +7,10 @@
 #include <map>
 #include <set>
 
+#include "mrpt_sgraphs/geometry/ground_frame.h"
 #include "storey_rooms.h"
 
 namespace mrpt_sgraphs {
-namespace {
-
-/// z is up and zero on the ground.
-Pose floorFrame(const Plane& ground_map) {
-  const PlaneFrame frame(ground_map, Eigen::Vector3d::Zero());
-  Pose T_floor_map = Pose::Identity();
-  T_floor_map.linear() = frame.rotation();
-  T_floor_map.translation() = -(frame.rotation() * frame.origin);
-  return T_floor_map;
-}
-
-}  // namespace
 
 struct RoomDetector::State {
   struct Storey {
