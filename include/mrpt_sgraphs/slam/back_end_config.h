@@ -4,7 +4,9 @@
 
 #include "mrpt_sgraphs/semantics/floor_detector_config.h"
 #include "mrpt_sgraphs/semantics/room_detector_config.h"
+#include "mrpt_sgraphs/semantics/relocation.h"
 #include "mrpt_sgraphs/slam/graph_slam_config.h"
+#include "mrpt_sgraphs/slam/localization_config.h"
 
 namespace mrpt_sgraphs {
 
@@ -12,6 +14,8 @@ namespace mrpt_sgraphs {
 struct BackEndConfig : GraphSlamConfig {
   FloorDetectorConfig floors;
   RoomDetectorConfig room_detection;
+  RelocationConfig relocation;
+  LocalizationConfig localization;
 
   /// The one list of its sections: `section(name, config)`.
   template <typename Self, typename Section>
@@ -24,6 +28,8 @@ struct BackEndConfig : GraphSlamConfig {
     section("rooms", self.rooms);
     section("hierarchy", self.hierarchy);
     section("solver", self.solver);
+    section("relocation", self.relocation);
+    section("localization", self.localization);
   }
 };
 
