@@ -60,6 +60,13 @@ std::unique_ptr<StateReader> loaded(const OfflineOptions& options) {
   return options.load.empty() ? nullptr : std::make_unique<StateReader>(options.load);
 }
 
+/// @param waiting_for  Why the session is not part of the map; empty if it is.
+void requireJoined(const std::string& waiting_for, const std::string& map) {
+  if (waiting_for.empty()) return;
+  throw std::runtime_error("what is in the bags could not be joined to '" + map + "': " +
+                           waiting_for + "; nothing is written");
+}
+
 FrontEndListener listenerOf(std::optional<FrontEndRecorder>* recorder) {
   return {[recorder](const OdometryResult& scan) { (*recorder)->add(scan); },
           [recorder](const Keyframe& keyframe, double segment_ms) {
@@ -86,6 +93,7 @@ Played playBags(const OfflineOptions& options, ProgressBar* bar, Remarks* remark
   player.takeLastScan();
   const std::string& topic = options.bags.points_topic;
   const std::size_t scans = pipeline.scans() - known;
+  requireJoined(pipeline.waitingFor(), options.load);
   if (scans == 0) throw nothingUsable("scan", player.clouds(), topic, damage);
   if (records) recorder->close();
   pipeline.finish();
