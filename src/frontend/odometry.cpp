@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mrpt_sgraphs/frontend/levelling.h"
 #include "mrpt_sgraphs/frontend/sweep.h"
@@ -45,9 +46,11 @@ void Odometry::reset() { *this = Odometry(config_); }
 
 std::optional<OdometryResult> Odometry::process(const Cloud& scan) {
   if (scan.empty() || (last_ && stampOf(scan) <= last_->stamp_s)) return std::nullopt;
-  OdometryResult result = last_ ? follow(scan) : start(scan);
+  const bool is_first = !last_;
+  if (first_ != nullptr) findFirstMotion(scan);
+  OdometryResult result = is_first ? start(scan) : follow(scan);
   CpuStopwatch watch;
-  if (result.registered) placeInMap(*result.deskewed, result.T_odom_base);
+  if (result.registered || is_first) placeInMap(*result.deskewed, result.T_odom_base);
   result.map_ms = watch.lap();
   return result;
 }
@@ -59,14 +62,48 @@ OdometryResult Odometry::start(const Cloud& scan) {
   const auto R_level = imu_.level(result.stamp_s - kLevelSpan_s, result.stamp_s + kLevelSpan_s);
   result.T_odom_base.linear() = R_level ? *R_level : levelByGround(scan, config_.map);
   result.deskewed.reset(new Cloud(scan));
-  result.registered = true;
   result.inlier_ratio = 1.0;
 
+  const Sweep sweep(scan, imu_);
+  result.registered = !sweep.hasTimes();
+  if (sweep.hasTimes()) first_ = result.deskewed;
   last_ = startingMotion(result.stamp_s, result.T_odom_base);
-  last_->seen_until_s = Sweep(scan, imu_).end_s();
+  last_->seen_until_s = sweep.end_s();
   result.covariance = last_->covariance.topLeftCorner<6, 6>();
   result.register_ms = watch.lap();
   return result;
+}
+
+/// The first scan went into the map as it came. Where the second lies in it tells the motion in between
+/// and so how the first was distorted; straightened by that, it tells the motion better.
+void Odometry::findFirstMotion(const Cloud& scan) {
+  const Cloud::ConstPtr first = std::exchange(first_, nullptr);
+  const MotionState start = *last_;
+  const double dt_s = stampOf(scan) - start.stamp_s;
+  if (dt_s > config_.max_gap_s) return;
+  const Sweep first_sweep(*first, imu_);
+  const Sweep sweep(scan, imu_);
+  const std::vector<ScanPoint> points = sweep.pointsToRegister(config_.registration_points);
+  constexpr int kRounds = 5;
+  for (int round = 0; round < kRounds; ++round) {
+    const MotionPrior prior = predictMotion(*last_, stampOf(scan), sweep.hasTurning(), imu_,
+                                            odom_in_, config_.motion);
+    ScanMatcher matcher = matcher_;
+    const RegistrationResult fit = matcher.match(points, map_, prior, viewpointOf(scan));
+    if (fit.matched == 0) break;
+    Tangent velocity_base = local(start.mean.T_map_base, fit.estimate.T_map_base) / dt_s;
+    Tangent straightening = velocity_base;
+    if (first_sweep.hasTurning()) straightening.tail<3>().setZero();  // the gyroscope has done it
+    const Tangent change = velocity_base - last_->mean.velocity_base;
+    last_ = start;  // as uncertain as before
+    last_->mean.velocity_base = velocity_base;
+    map_ = VoxelMap(config_.map);
+    last_in_map_.reset();
+    scans_in_map_ = 0;
+    placeInMap(*first_sweep.deskewed(straightening), start.mean.T_map_base);
+    constexpr double kSmall = 0.01;  // a millimetre in a sweep
+    if (change.norm() < kSmall) break;
+  }
 }
 
 OdometryResult Odometry::follow(const Cloud& scan) {

@@ -11,18 +11,19 @@
 #include <stdexcept>
 #include <string>
 
-#include "cloud_trace.h"
 #include "diagnostics.h"
 #include "display_publisher.h"
 #include "graph_publisher.h"
 #include "graph_services.h"
 #include "graph_slam_thread.h"
+#include "initial_pose.h"
+#include "keyframe_input.h"
 #include "known_clouds.h"
 #include "live_hierarchy.h"
+#include "map_to_odom.h"
 #include "mrpt_sgraphs/ros/conversions.h"
 #include "mrpt_sgraphs/ros/detections.h"
 #include "pipeline_nodelet.h"
-#include "stamp_matcher.h"
 #include "throttle.h"
 
 namespace mrpt_sgraphs {
@@ -38,15 +39,10 @@ std::size_t droppedIn(const GraphSnapshot& graph) {
 
 /// The back end among the nodelets: GraphSlam on its own thread, what goes in and what comes out.
 ///
-/// Subscribes  keyframe         (mrpt_sgraphs/KeyframeStamped)  matched with
-///             keyframe_points  (Cloud, zero-copy)              and
-///             keyframe_planes  (mrpt_sgraphs/KeyframePlanes)   by their stamp
-///             scan_odometry    (mrpt_sgraphs/ScanOdometry)     for the trajectory of every scan
+/// Subscribes  see KeyframeInput; InitialPose, for a map that was loaded
 ///             floors           (mrpt_sgraphs/Floors)           found in graphs of ours
 ///             rooms            (mrpt_sgraphs/Rooms)            likewise
-///             initialpose      (geometry_msgs/PoseWithCovarianceStamped) where the robot is in a map
-///                              that was loaded
-/// Publishes   see GraphPublisher, DisplayPublisher and KnownClouds
+/// Publishes   see GraphPublisher, MapToOdom, DisplayPublisher and KnownClouds
 /// Serves      see GraphServices; LiveHierarchy in hierarchy
 /// Parameters  loop_closure/*, walls/*, ground/*, rooms/*, hierarchy/*, solver/*, and for the
 ///             record of a run all of SlamConfig
@@ -55,9 +51,6 @@ std::size_t droppedIn(const GraphSnapshot& graph) {
 ///             map                                              a folder to begin with; empty: none
 class GraphSlamNodelet final : public PipelineNodelet {
  private:
-  using CloudConstPtr = boost::shared_ptr<const Cloud>;
-  using Matcher = StampMatcher<KeyframeStampedConstPtr, CloudConstPtr, KeyframePlanesConstPtr>;
-
   void start() override {
     const SlamConfig config = loadSlamConfig(getNodeHandle());
     const auto frames = section<FramesConfig>("frames");
@@ -67,10 +60,14 @@ class GraphSlamNodelet final : public PipelineNodelet {
     map_frame_ = frameName(frames.map);
     publisher_ = std::make_unique<GraphPublisher>(nh, frames);
     known_clouds_ = std::make_unique<KnownClouds>(nh);
+    map_to_odom_ = std::make_unique<MapToOdom>(nh, frames);
     slam_ = std::make_unique<GraphSlamThread>(
         config, GraphSlamThread::Listener{
                     [this](const GraphSnapshotConstPtr& graph, std::uint32_t number) {
                       onGraph(graph, number);
+                    },
+                    [this](const Pose& T_map_odom, double stamp_s) {
+                      map_to_odom_->publish(T_map_odom, stamp_s);
                     },
                     [this](const GraphSnapshotConstPtr& graph) { known_clouds_->publish(graph); },
                     [this](const OptimizationSummary& summary) { onOptimization(summary); },
@@ -93,13 +90,20 @@ class GraphSlamNodelet final : public PipelineNodelet {
 
     diagnostics_ = std::make_unique<Diagnostics>(
         nh, getName(), [this](Diagnostics::Status& status) { describe(status); });
-    scan_sub_ = nh.subscribe("scan_odometry", kQueueSize, &GraphSlamNodelet::onScan, this);
-    keyframe_sub_ = nh.subscribe("keyframe", kQueueSize, &GraphSlamNodelet::onKeyframe, this);
-    cloud_sub_ = nh.subscribe("keyframe_points", kQueueSize, &GraphSlamNodelet::onCloud, this);
-    planes_sub_ = nh.subscribe("keyframe_planes", kQueueSize, &GraphSlamNodelet::onPlanes, this);
+    input_ = std::make_unique<KeyframeInput>(
+        nh, kQueueSize,
+        KeyframeInput::Listener{
+            [this](const ScanMotion& motion, const ScanReport& report) {
+              slam_->addScan(motion, report);
+            },
+            [this](const Keyframe& keyframe, double segment_ms) {
+              slam_->addKeyframe(keyframe, segment_ms);
+            },
+            [this] { slam_->startAgain(); }});
     floors_sub_ = nh.subscribe("floors", kQueueSize, &GraphSlamNodelet::onFloors, this);
     rooms_sub_ = nh.subscribe("rooms", kQueueSize, &GraphSlamNodelet::onRooms, this);
-    initial_pose_sub_ = nh.subscribe("initialpose", 1, &GraphSlamNodelet::onInitialPose, this);
+    initial_pose_ = std::make_unique<InitialPose>(
+        nh, map_frame_, [this](const Pose& T_map_base) { slam_->guess(T_map_base); });
     loadMap();
   }
 
@@ -107,29 +111,6 @@ class GraphSlamNodelet final : public PipelineNodelet {
     const auto folder = getPrivateNodeHandle().param<std::string>("map", "");
     if (folder.empty()) return;
     NODELET_INFO("%s", slam_->load(folder).get().c_str());
-  }
-
-  void onScan(const ScanOdometryConstPtr& msg) {
-    if (!isOfThisSession(msg->session)) return;
-    const auto motion = toScanMotion(*msg);
-    if (!motion) return;
-    slam_->addScan(*motion, toScanReport(*msg));
-  }
-
-  void onKeyframe(const KeyframeStampedConstPtr& msg) {
-    if (!isOfThisSession(msg->session)) return;
-    add(matcher_.add<0>(pcl_conversions::toPCL(msg->header.stamp), msg));
-  }
-
-  void onCloud(const CloudConstPtr& cloud) {
-    traceCloud("receive", "keyframe_points", cloud.get());
-    add(matcher_.add<1>(cloud->header.stamp, cloud));
-  }
-
-  void onPlanes(const KeyframePlanesConstPtr& msg) {
-    traceCloud("receive", "keyframe_planes", msg.get());
-    if (!isOfThisSession(msg->session)) return;
-    add(matcher_.add<2>(pcl_conversions::toPCL(msg->header.stamp), msg));
   }
 
   void onFloors(const FloorsConstPtr& msg) {
@@ -149,38 +130,9 @@ class GraphSlamNodelet final : public PipelineNodelet {
     }
   }
 
-  void add(const std::optional<Matcher::Set>& set) {
-    if (!set) return;
-    const auto& [msg, cloud, planes] = *set;
-    auto keyframe = toKeyframe(*msg);
-    if (!keyframe) return;
-    keyframe->cloud = pcl::pcl_ptr(cloud);
-    keyframe->planes = toObservedPlanes(*planes);
-    slam_->addKeyframe(*keyframe, planes->segment_ms);
-  }
-
-  /// A session that is newer begins, one that is older ended: nothing of it is waited for.
-  bool isOfThisSession(std::uint32_t session) {
-    if (session > session_) {
-      session_ = session;
-      matcher_.clear();
-      slam_->startAgain();
-    }
-    return session == session_;
-  }
-
-  void onInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& msg) {
-    const auto T_map_base = toPose(msg->pose.pose);
-    if (frameName(msg->header.frame_id) != map_frame_) {
-      NODELET_WARN("initialpose is in '%s', not in '%s'", msg->header.frame_id.c_str(),
-                   map_frame_.c_str());
-    } else if (T_map_base) {
-      slam_->guess(*T_map_base);
-    }
-  }
-
   void onGraph(const GraphSnapshotConstPtr& graph, std::uint32_t number) {
     if (number != number_of_graph_) {
+      map_to_odom_->forget();
       number_of_graph_ = number;
       const std::lock_guard<std::mutex> lock(last_optimization_mutex_);
       last_optimization_.reset();
@@ -207,7 +159,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
     const GraphSnapshotConstPtr graph = publisher_->graph();
     if (waiting > kMaxWaiting) {
       status.summary(Diagnostics::Status::WARN, "the back end cannot keep up");
-    } else if (matcher_.waiting() > kMaxIncomplete) {
+    } else if (input_->incomplete() > kMaxIncomplete) {
       status.summary(Diagnostics::Status::WARN,
                      "keyframes wait for their planes: is PlaneSegmentation loaded?");
     } else if (detectors_wanted_ &&
@@ -219,7 +171,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
       status.summary(Diagnostics::Status::OK, graph ? "the graph grows" : "no keyframe yet");
     }
     status.add("jobs waiting", waiting);
-    status.add("keyframes incomplete", matcher_.waiting());
+    status.add("keyframes incomplete", input_->incomplete());
     const std::size_t dropped = graph ? droppedIn(*graph) : 0;
     status.add("mode", hierarchy_->now().mode);
     status.add("keyframes", graph ? graph->keyframes.size() : 0);
@@ -238,16 +190,15 @@ class GraphSlamNodelet final : public PipelineNodelet {
     status.add("last optimization, converged", optimization->converged);
   }
 
-  Matcher matcher_;
   Throttle warning_;
   bool detectors_wanted_ = true;
-  std::uint32_t session_ = 0;
   std::mutex last_optimization_mutex_;  ///< Guards the next one.
   std::optional<OptimizationSummary> last_optimization_;
   std::uint32_t number_of_graph_ = 0;  ///< Belongs to the back end's thread.
   std::string map_frame_;
   std::unique_ptr<GraphPublisher> publisher_;
   std::unique_ptr<KnownClouds> known_clouds_;
+  std::unique_ptr<MapToOdom> map_to_odom_;
   std::unique_ptr<GraphSlamThread> slam_;
   ros::CallbackQueue patient_queue_;  ///< For what may wait for the back end.
   std::unique_ptr<GraphServices> services_;
@@ -255,13 +206,10 @@ class GraphSlamNodelet final : public PipelineNodelet {
   std::unique_ptr<LiveHierarchy> hierarchy_;
   ros::AsyncSpinner patient_spinner_{1, &patient_queue_};
   std::unique_ptr<Diagnostics> diagnostics_;
-  ros::Subscriber scan_sub_;
-  ros::Subscriber keyframe_sub_;
-  ros::Subscriber cloud_sub_;
-  ros::Subscriber planes_sub_;
+  std::unique_ptr<KeyframeInput> input_;
   ros::Subscriber floors_sub_;
-  ros::Subscriber rooms_sub_;
-  ros::Subscriber initial_pose_sub_;  ///< Last members: no callback outlives the others.
+  std::unique_ptr<InitialPose> initial_pose_;
+  ros::Subscriber rooms_sub_;  ///< Last members: no callback outlives the others.
 };
 
 }  // namespace mrpt_sgraphs

@@ -34,19 +34,12 @@ GraphSlamThread::GraphSlamThread(const SlamConfig& config, Listener listener)
     : config_(config),
       listener_(std::move(listener)),
       session_(std::make_unique<Session>(config, 0)),
-      thread_([this] { run(); }) {}
+      jobs_(listener_.on_problem) {}
 
-GraphSlamThread::~GraphSlamThread() {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    stopping_ = true;
-  }
-  something_to_do_.notify_one();
-  thread_.join();
-}
+GraphSlamThread::~GraphSlamThread() = default;
 
 void GraphSlamThread::addScan(const ScanMotion& scan, const ScanReport& report) {
-  post([this, scan, report] {
+  jobs_.post([this, scan, report] {
     if (session_->waiting != nullptr) {
       session_->waiting->addScan(scan, report);
     } else {
@@ -56,7 +49,7 @@ void GraphSlamThread::addScan(const ScanMotion& scan, const ScanReport& report) 
 }
 
 void GraphSlamThread::addKeyframe(const Keyframe& keyframe, double segment_ms) {
-  post([this, keyframe, segment_ms] {
+  jobs_.post([this, keyframe, segment_ms] {
     if (session_->waiting == nullptr) {
       addToMap(keyframe, segment_ms);
     } else if (const auto link = session_->waiting->addKeyframe(keyframe, segment_ms)) {
@@ -66,7 +59,7 @@ void GraphSlamThread::addKeyframe(const Keyframe& keyframe, double segment_ms) {
 }
 
 void GraphSlamThread::guess(const Pose& T_map_base) {
-  post([this, T_map_base] {
+  jobs_.post([this, T_map_base] {
     if (session_->waiting == nullptr) return;
     if (const auto link = session_->waiting->guess(T_map_base)) {
       join(*link);
@@ -102,7 +95,7 @@ void GraphSlamThread::addToMap(const Keyframe& keyframe, double segment_ms) {
 }
 
 void GraphSlamThread::setFloors(std::uint32_t number, const FloorDetection& floors) {
-  post([this, number, floors] {
+  jobs_.post([this, number, floors] {
     if (number != session_->number) return;
     CpuStopwatch stopwatch;
     const auto optimizations = session_->slam.setFloors(floors);
@@ -115,7 +108,7 @@ void GraphSlamThread::setFloors(std::uint32_t number, const FloorDetection& floo
 
 void GraphSlamThread::setRooms(std::uint32_t number, const RoomDetection& rooms,
                                double detect_ms) {
-  post([this, number, rooms, detect_ms] {
+  jobs_.post([this, number, rooms, detect_ms] {
     if (number != session_->number) return;
     CpuStopwatch stopwatch;
     const auto optimizations = session_->slam.setRooms(rooms);
@@ -128,7 +121,7 @@ void GraphSlamThread::setRooms(std::uint32_t number, const RoomDetection& rooms,
 }
 
 void GraphSlamThread::setHierarchy(const HierarchyConfig& hierarchy) {
-  post([this, hierarchy] {
+  jobs_.post([this, hierarchy] {
     session_->slam.setHierarchy(hierarchy);
     config_.hierarchy = hierarchy;
     tellGraph();
@@ -136,7 +129,7 @@ void GraphSlamThread::setHierarchy(const HierarchyConfig& hierarchy) {
 }
 
 void GraphSlamThread::startAgain() {
-  post([this] {
+  jobs_.post([this] {
     const std::string fate = rescue();
     session_ = std::make_unique<Session>(config_, session_->number + 1);
     listener_.on_problem("A new graph begins; " + fate + ".");
@@ -145,7 +138,7 @@ void GraphSlamThread::startAgain() {
 }
 
 std::future<std::string> GraphSlamThread::load(const std::string& folder) {
-  return ask<std::string>([this, folder] {
+  return jobs_.ask<std::string>([this, folder] {
     const StateReader state(folder);
     auto loaded = std::make_unique<Session>(config_, session_->number + 1);
     readGraphState(state, &loaded->slam, &loaded->log);
@@ -177,7 +170,7 @@ std::string GraphSlamThread::rescue() {
 }
 
 std::future<OptimizationSummary> GraphSlamThread::optimize() {
-  return ask<OptimizationSummary>([this] {
+  return jobs_.ask<OptimizationSummary>([this] {
     const OptimizationSummary summary = session_->slam.optimize();
     tell({summary});
     return summary;
@@ -185,24 +178,19 @@ std::future<OptimizationSummary> GraphSlamThread::optimize() {
 }
 
 std::future<RunRecord> GraphSlamThread::record() {
-  return ask<RunRecord>([this] { return recordNow(); });
+  return jobs_.ask<RunRecord>([this] { return recordNow(); });
 }
 
 std::future<RunRecord> GraphSlamThread::dump(bool finish) {
-  return ask<RunRecord>([this, finish] {
+  return jobs_.ask<RunRecord>([this, finish] {
     if (finish) this->finish();
     return dumpNow();
   });
 }
 
 std::future<Trajectory> GraphSlamThread::trajectory() {
-  return ask<Trajectory>(
+  return jobs_.ask<Trajectory>(
       [this] { return session_->log.trajectory().corrected(*session_->slam.snapshot()); });
-}
-
-std::size_t GraphSlamThread::waiting() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return jobs_.size();
 }
 
 void GraphSlamThread::finish() {
@@ -244,37 +232,7 @@ void GraphSlamThread::tellGraph() {
   if (graph == session_->told) return;
   session_->told = graph;
   listener_.on_graph(graph, session_->number);
-}
-
-template <typename Result>
-std::future<Result> GraphSlamThread::ask(std::function<Result()> job) {
-  const auto task = std::make_shared<std::packaged_task<Result()>>(std::move(job));
-  post([task] { (*task)(); });
-  return task->get_future();
-}
-
-void GraphSlamThread::post(std::function<void()> job) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    jobs_.push_back(std::move(job));
-  }
-  something_to_do_.notify_one();
-}
-
-void GraphSlamThread::run() {
-  for (;;) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    something_to_do_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
-    if (stopping_) return;
-    const std::function<void()> job = std::move(jobs_.front());
-    jobs_.pop_front();
-    lock.unlock();
-    try {
-      job();
-    } catch (const std::exception& error) {
-      listener_.on_problem(error.what());
-    }
-  }
+  if (session_->waiting == nullptr) listener_.on_place(graph->T_map_odom, graph->stamp_s);
 }
 
 }  // namespace mrpt_sgraphs

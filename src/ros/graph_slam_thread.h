@@ -2,18 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <future>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "job_thread.h"
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
 #include "mrpt_sgraphs/io/run_writer.h"
 #include "mrpt_sgraphs/semantics/detected_room.h"
@@ -30,6 +26,8 @@ class GraphSlamThread {
   struct Listener {
     /// After every change, with the number of the graph: it changes where another one begins.
     std::function<void(const GraphSnapshotConstPtr&, std::uint32_t)> on_graph;
+    /// T_map_odom after every change, where it is known.
+    std::function<void(const Pose&, double stamp_s)> on_place;
     /// Of a map that was loaded, before its graph: nobody else knows its clouds.
     std::function<void(const GraphSnapshotConstPtr&)> on_loaded;
     std::function<void(const OptimizationSummary&)> on_optimization;
@@ -76,7 +74,7 @@ class GraphSlamThread {
   std::future<Trajectory> trajectory();
 
   /// Jobs that wait.
-  std::size_t waiting() const;
+  std::size_t waiting() const { return jobs_.waiting(); }
 
  private:
   struct Session;
@@ -87,10 +85,6 @@ class GraphSlamThread {
 
   void tell(const std::vector<OptimizationSummary>& optimizations);
   void tellGraph();
-  template <typename Result>
-  std::future<Result> ask(std::function<Result()> job);
-  void post(std::function<void()> job);
-  void run();
   void finish();
   RunRecord recordNow();
   RunRecord dumpNow();
@@ -99,11 +93,7 @@ class GraphSlamThread {
   const Listener listener_;
   std::unique_ptr<Session> session_;  ///< Belongs to the thread.
 
-  mutable std::mutex mutex_;  ///< Guards the next two.
-  std::deque<std::function<void()>> jobs_;
-  bool stopping_ = false;
-  std::condition_variable something_to_do_;
-  std::thread thread_;  ///< Last member: it uses the others.
+  JobThread jobs_;  ///< Last member: its thread uses the others.
 };
 
 }  // namespace mrpt_sgraphs

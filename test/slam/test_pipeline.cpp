@@ -72,7 +72,7 @@ TEST_F(PipelineInABuilding, RecordsEveryScan) {
     EXPECT_NEAR(report.stamp_s, run_->truth[k].stamp_s, 1e-6);
     EXPECT_EQ(report.stamp_s, record_->odometry[k].stamp_s);
     EXPECT_EQ(report.stamp_s, record_->trajectory[k].stamp_s);
-    EXPECT_TRUE(report.registered) << k;
+    EXPECT_EQ(report.registered, k > 0) << k;
     for (const double time_ms : {report.prefilter_ms, report.deskew_ms, report.register_ms,
                                  report.map_ms, report.select_ms, report.segment_ms,
                                  report.keyframe_ms, report.rooms_ms}) {

@@ -64,8 +64,10 @@ class KeyframeSelector {
  public:
   explicit KeyframeSelector(const KeyframeConfig& config) : config_(config) {}
 
-  /// @param deskewed  The scan's cloud in the base frame.
-  std::optional<Keyframe> process(const ScanMotion& scan, const Cloud& deskewed);
+  /// @param deskewed    The scan's cloud in the base frame.
+  /// @param registered  Whether its pose was measured: the first keyframe waits for one that was.
+  std::optional<Keyframe> process(const ScanMotion& scan, const Cloud& deskewed,
+                                  bool registered = true);
 
   void reset() { *this = KeyframeSelector(config_); }
 

@@ -51,7 +51,9 @@ struct OdometryResult {
   /// Of the motion since the last scan (right perturbation of T_odom_base, `[t; theta]`).
   Matrix6 covariance = Matrix6::Identity();
   Cloud::Ptr deskewed;       ///< The scan as if it had been taken at its stamp; base frame.
-  bool registered = false;   ///< False: the pose is a prediction only.
+  /// False: the pose is a prediction only; or it is the first scan, and what moved in its sweep is not
+  /// known yet.
+  bool registered = false;
   int degenerate_directions = 0;  ///< Directions that were left to the prediction.
   double inlier_ratio = 0.0;
   int iterations = 0;
@@ -68,7 +70,8 @@ struct OdometryResult {
 /// itself. The last estimate with its covariance predicts the next as a Kalman filter does, with a
 /// noise that follows from the largest acceleration: what one scan does not show of pose or velocity
 /// the sequence does, and directions that no point constrains stay with the prediction. An IMU
-/// supplies the turning within the scan where there is one, `odom_in` the motion between scans.
+/// supplies the turning within the scan where there is one, `odom_in` the motion between scans. The
+/// robot may move from the first scan on: the second one tells how the first was distorted.
 class Odometry {
  public:
   explicit Odometry(const OdometryConfig& config);
@@ -90,6 +93,7 @@ class Odometry {
     a("imu", imu_);
     a("odom_in", odom_in_);
     a("last", last_);
+    a("first", first_);
     a("last_in_map", last_in_map_);
     a("scans_in_map", scans_in_map_);
     a("way_m", way_m_);
@@ -98,6 +102,7 @@ class Odometry {
 
  private:
   OdometryResult start(const Cloud& scan);
+  void findFirstMotion(const Cloud& scan);
   OdometryResult follow(const Cloud& scan);
   void placeInMap(const Cloud& deskewed, const Pose& T_odom_base);
 
@@ -107,6 +112,7 @@ class Odometry {
   ImuBuffer imu_;
   OdomBuffer odom_in_;
   std::optional<MotionState> last_;  ///< Nothing before the first scan.
+  Cloud::ConstPtr first_;            ///< Until the second scan tells how it was distorted.
   std::optional<Pose> last_in_map_;  ///< T_odom_base of the last scan that went into the map.
   int scans_in_map_ = 0;
   double way_m_ = 0.0;        ///< Covered so far.
