@@ -42,6 +42,8 @@ po::options_description describedOptions(OfflineOptions* options) {
   add("load", po::value(&options->load),
       "a folder written by --dump, --out or the service dump: where the bag covers its end, the run "
       "goes on there");
+  add("localize", po::bool_switch(&options->localize),
+      "with --load: the robot is found and followed in that map, which stays as it is");
   add("params", po::value(&options->params), "parameter file, see config/default.yaml");
   add("mode", po::value(&options->mode),
       "baseline, paper or condensed, in place of the parameters' hierarchy/mode");
@@ -114,6 +116,10 @@ std::optional<OfflineOptions> parseOfflineOptions(int argc, char** argv) {
   po::notify(values);
   if (options.out.empty() && options.dump.empty()) {
     throw po::error("the option '--out' (or '--dump') is required but missing");
+  }
+  if (options.localize && options.load.empty()) throw po::error("--localize needs a map to --load");
+  if (options.localize && !options.dump.empty()) {
+    throw po::error("--localize leaves nothing to --dump: the map stays as it is");
   }
   if (values.count("start") > 0 && !(options.bags.start_s >= 0.0)) {
     throw po::error("--start must not be negative");

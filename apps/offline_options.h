@@ -23,6 +23,7 @@ struct OfflineOptions {
   std::string mode;  ///< Empty: that of the parameters.
   std::string base_frame;
   double drift_rad_per_m = 0.0;  ///< Put into the recorded odometry.
+  bool localize = false;  ///< In the map that is loaded.
   bool quiet = false;
 };
 

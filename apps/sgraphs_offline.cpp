@@ -82,7 +82,10 @@ Played playBags(const OfflineOptions& options, ProgressBar* bar, Remarks* remark
   BagPlayer player(options.bags, options.base_frame, &source, &pipeline, remarks);
   requireWritableFolders(options);
   if (records) recorder.emplace(options.record);
-  if (const auto state = loaded(options)) {
+  const auto state = loaded(options);
+  if (options.localize) {
+    pipeline.localizeIn(*state);
+  } else if (state != nullptr) {
     pipeline.restore(*state);
     if (pipeline.stamp_s()) player.skipTo(*pipeline.stamp_s());
   }
@@ -109,6 +112,7 @@ Played replay(const OfflineOptions& options, ProgressBar* bar, Remarks* remarks)
   double known_until_s = -std::numeric_limits<double>::infinity();
   if (const auto state = loaded(options)) {
     back_end.restore(*state);
+    if (options.localize) back_end.localize();
     known_until_s = back_end.stamp_s().value_or(known_until_s);
   }
 

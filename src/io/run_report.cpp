@@ -122,6 +122,18 @@ Json describe(const GraphSnapshot& graph) {
           {"in_no_room", toJson(places.at(std::nullopt))}};
 }
 
+Json describe(const LocalizationReport& report) {
+  const auto orNull = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+  };
+  return {{"localized", report.localized},
+          {"problem", report.problem},
+          {"first_after_s", orNull(report.first_after_s)},
+          {"first_after_m", orNull(report.first_after_m)},
+          {"relocations", report.relocations},
+          {"losses", report.losses}};
+}
+
 double peakMebibytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -147,6 +159,7 @@ void writeReport(const RunRecord& run, std::ostream& out) {
       {"peak_mib", peakMebibytes()},
       {"parameters", run.parameters}};
   report.update(describe(*run.graph));
+  if (run.localization) report["localization"] = describe(*run.localization);
   out << report.dump(1) << '\n';
 }
 

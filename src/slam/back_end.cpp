@@ -7,6 +7,7 @@
 #include "mrpt_sgraphs/geometry/resident_memory.h"
 #include "mrpt_sgraphs/slam/config_file.h"
 #include "mrpt_sgraphs/slam/graph_state.h"
+#include "mrpt_sgraphs/slam/localized_run.h"
 #include "mrpt_sgraphs/slam/waiting_session.h"
 
 namespace mrpt_sgraphs {
@@ -26,7 +27,9 @@ BackEnd::BackEnd(const BackEndConfig& config)
 BackEnd::~BackEnd() = default;
 
 void BackEnd::addScan(const ScanMotion& scan, const ScanReport& report) {
-  if (waiting_ != nullptr) {
+  if (localized_ != nullptr) {
+    localized_->addScan(scan, report);
+  } else if (waiting_ != nullptr) {
     waiting_->addScan(scan, report);
   } else {
     log_.addScan(scan, report);
@@ -34,12 +37,20 @@ void BackEnd::addScan(const ScanMotion& scan, const ScanReport& report) {
 }
 
 void BackEnd::addKeyframe(const Keyframe& keyframe, double segment_ms) {
-  if (waiting_ == nullptr) {
+  if (localized_ != nullptr) {
+    localized_->addKeyframe(keyframe, segment_ms);
+  } else if (waiting_ == nullptr) {
     addToMap(keyframe, segment_ms);
   } else if (const auto link = waiting_->addKeyframe(keyframe, segment_ms)) {
     join(*link);
   }
 }
+
+void BackEnd::localize() {
+  localized_ = std::make_unique<LocalizedRun>(graph_slam_.snapshot(), config_);
+}
+
+const RunLog& BackEnd::log() const { return localized_ != nullptr ? localized_->log() : log_; }
 
 void BackEnd::beginSession() {
   waiting_ = std::make_unique<WaitingSession>(graph_slam_.snapshot(), config_);
@@ -84,11 +95,15 @@ void BackEnd::addToMap(const Keyframe& keyframe, double segment_ms) {
   report->rss_mib = residentMemory_MiB();
 }
 
-void BackEnd::finish() { log_.add(graph_slam_.finish()); }
+void BackEnd::finish() {
+  if (localized_ == nullptr) log_.add(graph_slam_.finish());
+}
 
 RunRecord BackEnd::record() {
-  RunRecord run = log_.record(graph_slam_.snapshot());
+  RunRecord run =
+      localized_ != nullptr ? localized_->record() : log_.record(graph_slam_.snapshot());
   run.parameters = parameterList(config_);
+  if (run.localization) return run;
   StateWriter state(run.graph);
   writeState(&state);
   run.state = state.files();

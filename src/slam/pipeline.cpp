@@ -64,6 +64,7 @@ RunRecord Pipeline::record() {
   RunRecord run = back_end_.record();
   const auto parameters = parameterList(config_);
   run.parameters.insert(parameters.begin(), parameters.end());  // those of the back end are in it
+  if (run.localization) return run;
   StateWriter state(run.graph);
   state.add("front_end", [this](auto& a) { archiveFrontEnd(a); });
   run.state.insert(state.files().begin(), state.files().end());
@@ -79,6 +80,11 @@ void Pipeline::restore(const StateReader& state) {
   } else {
     resumes_until_s_ = end_s;
   }
+}
+
+void Pipeline::localizeIn(const StateReader& state) {
+  back_end_.restore(state);
+  back_end_.localize();
 }
 
 /// Once.

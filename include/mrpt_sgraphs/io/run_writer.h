@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,11 +29,22 @@ struct ScanReport {
   bool keyframe = false;
 };
 
+/// Of a run that used a map and left it as it is.
+struct LocalizationReport {
+  bool localized = false;  ///< At the end,
+  std::string problem;     ///< and if not, why.
+  std::optional<double> first_after_s;  ///< When the place was known first, after the first scan,
+  std::optional<double> first_after_m;  ///< and after how much way; none: never.
+  int relocations = 0;  ///< How often the place was found,
+  int losses = 0;       ///< and lost.
+};
+
 /// All that a run leaves behind, as values.
 struct RunRecord {
   Trajectory trajectory;  ///< T_map_base of every scan, after the last optimization.
   Trajectory odometry;    ///< T_odom_base of every scan.
   GraphSnapshotConstPtr graph;
+  std::optional<LocalizationReport> localization;  ///< None: the graph is what was made.
   std::vector<OptimizationSummary> optimizations;
   std::vector<ScanReport> scans;
   std::map<std::string, std::string> parameters;  ///< By their full names, as used.

@@ -15,6 +15,7 @@
 
 namespace mrpt_sgraphs {
 
+class LocalizedRun;
 class WaitingSession;
 
 /// What comes after the front end, on the caller's thread: each keyframe goes into the graph, and
@@ -36,13 +37,16 @@ class BackEnd {
   /// Why a session is still kept, with numbers; empty if none is.
   std::string waitingFor() const;
 
+  /// From now on the map that was restored is used and stays as it is: see LocalizedRun.
+  void localize();
+
   /// After its scan.
   /// @param segment_ms  What its planes have cost.
   /// @throws std::invalid_argument as GraphSlam::addKeyframe does.
   void addKeyframe(const Keyframe& keyframe, double segment_ms);
 
-  std::size_t scans() const { return log_.scans(); }
-  std::optional<double> stamp_s() const { return log_.stamp_s(); }  ///< Of the last scan.
+  std::size_t scans() const { return log().scans(); }
+  std::optional<double> stamp_s() const { return log().stamp_s(); }  ///< Of the last scan.
   GraphSnapshotConstPtr graph() const { return graph_slam_.snapshot(); }
 
   /// To be called when a run is over: see GraphSlam::finish.
@@ -59,6 +63,7 @@ class BackEnd {
   void restore(const StateReader& state);
 
  private:
+  const RunLog& log() const;
   void join(const LoopClosure& link);
   void addToMap(const Keyframe& keyframe, double segment_ms);
 
@@ -67,6 +72,7 @@ class BackEnd {
   RoomDetector rooms_;
   RunLog log_;
   std::unique_ptr<WaitingSession> waiting_;  ///< Null: none.
+  std::unique_ptr<LocalizedRun> localized_;  ///< Null: the map grows.
 };
 
 }  // namespace mrpt_sgraphs

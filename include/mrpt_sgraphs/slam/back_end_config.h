@@ -3,8 +3,8 @@
 #pragma once
 
 #include "mrpt_sgraphs/semantics/floor_detector_config.h"
-#include "mrpt_sgraphs/semantics/room_detector_config.h"
 #include "mrpt_sgraphs/semantics/relocation.h"
+#include "mrpt_sgraphs/semantics/room_detector_config.h"
 #include "mrpt_sgraphs/slam/graph_slam_config.h"
 #include "mrpt_sgraphs/slam/localization_config.h"
 

@@ -59,6 +59,9 @@ class Pipeline {
   /// than that by a pause is another session: see BackEnd::beginSession.
   /// @throws std::runtime_error as StateReader does.
   void restore(const StateReader& state);
+  /// Uses the map of a record and leaves it as it is: see BackEnd::localize. The front end begins anew.
+  /// @throws std::runtime_error as StateReader does.
+  void localizeIn(const StateReader& state);
   /// Why a second session is not part of the map yet, with numbers; empty if there is none.
   std::string waitingFor() const { return back_end_.waitingFor(); }
 
