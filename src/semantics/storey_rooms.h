@@ -3,12 +3,12 @@
 
 #pragma once
 
-#include <map>
 #include <optional>
 #include <vector>
 
 #include "mrpt_sgraphs/graph/snapshot.h"
 #include "mrpt_sgraphs/mapping/free_space.h"
+#include "mrpt_sgraphs/mapping/placed_clouds.h"
 #include "mrpt_sgraphs/semantics/detected_room.h"
 #include "mrpt_sgraphs/semantics/room_detector_config.h"
 
@@ -18,7 +18,10 @@ namespace mrpt_sgraphs {
 class StoreyRooms {
  public:
   StoreyRooms(const RoomDetectorConfig& config, std::optional<FloorId> floor)
-      : config_(config), floor_(floor), space_(config.free_space) {}
+      : config_(config),
+        floor_(floor),
+        space_(config.free_space),
+        placed_(kTolerance * config.free_space.cell_m) {}
 
   /// Takes into the free space what is new or has moved, and out of it what is gone: keyframes, or
   /// their clouds.
@@ -36,15 +39,12 @@ class StoreyRooms {
   const FreeSpace& space() const { return space_; }
 
  private:
-  struct Integrated {
-    Pose T_floor_base;
-    Cloud::ConstPtr cloud;
-  };
+  static constexpr double kTolerance = 0.5;  ///< Of a cell.
 
   RoomDetectorConfig config_;
   std::optional<FloorId> floor_;
   FreeSpace space_;
-  std::map<KeyframeId, Integrated> integrated_;
+  PlacedClouds placed_;
 };
 
 }  // namespace mrpt_sgraphs

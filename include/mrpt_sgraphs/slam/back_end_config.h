@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "mrpt_sgraphs/mapping/map_config.h"
 #include "mrpt_sgraphs/semantics/floor_detector_config.h"
 #include "mrpt_sgraphs/semantics/room_detector_config.h"
 #include "mrpt_sgraphs/slam/graph_slam_config.h"
@@ -12,6 +13,7 @@ namespace mrpt_sgraphs {
 struct BackEndConfig : GraphSlamConfig {
   FloorDetectorConfig floors;
   RoomDetectorConfig room_detection;
+  MapConfig map;
 
   /// The one list of its sections: `section(name, config)`.
   template <typename Self, typename Section>
@@ -24,6 +26,7 @@ struct BackEndConfig : GraphSlamConfig {
     section("rooms", self.rooms);
     section("hierarchy", self.hierarchy);
     section("solver", self.solver);
+    section("map", self.map);
   }
 };
 
