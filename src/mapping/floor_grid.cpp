@@ -25,10 +25,12 @@ bool isGround(const Plane& ground_map) {
   return ground_map.normal.z() > kSteepest;
 }
 
-/// Which floor a place is of: tiles of a metre, each asked once.
+/// Which floor a place is of, where two lie beside each other and not a storey apart: tiles of a
+/// metre, each asked once.
 class FloorOfTile {
  public:
-  explicit FloorOfTile(const GraphSnapshot& graph) {
+  /// @param storey_m  Floors whose grounds are farther apart do not get into each other's way.
+  FloorOfTile(const GraphSnapshot& graph, double storey_m) : storey_m_(storey_m) {
     for (const FloorNode& floor : graph.floors) {
       if (isGround(floor.ground_map)) grounds_.emplace(floor.id, floor.ground_map);
     }
@@ -59,13 +61,12 @@ class FloorOfTile {
   };
 
   FloorId nearestFloor(FloorId asked, const Eigen::Vector2d& at_map) const {
-    constexpr double kOneUpIsAlong = 10.0;  // a storey up is farther than all that rays reach
     const double ground_m = groundAt(grounds_.at(asked), at_map);
     FloorId nearest = asked;
     double least = std::numeric_limits<double>::infinity();
     for (const Place& place : places_) {
-      const double up = kOneUpIsAlong * (place.ground_m - ground_m);
-      const double distance2 = (place.at_map - at_map).squaredNorm() + up * up;
+      if (std::abs(place.ground_m - ground_m) > storey_m_) continue;
+      const double distance2 = (place.at_map - at_map).squaredNorm();
       if (distance2 >= least) continue;
       least = distance2;
       nearest = place.floor;
@@ -73,6 +74,7 @@ class FloorOfTile {
     return nearest;
   }
 
+  double storey_m_;
   std::map<FloorId, Plane> grounds_;
   std::vector<Place> places_;
   std::map<std::pair<FloorId, std::pair<int, int>>, FloorId> owners_;
@@ -121,7 +123,7 @@ bool operator==(const FloorGrid& a, const FloorGrid& b) {
 std::vector<FloorGrid> floorGrids(const OccupancyMap& map, const GraphSnapshot& graph,
                                   const MapConfig& config) {
   std::vector<FloorGrid> grids;
-  FloorOfTile floors(graph);
+  FloorOfTile floors(graph, config.max_height_m);
   for (const FloorNode& floor : graph.floors) {
     if (!isGround(floor.ground_map)) continue;
     FloorGrid grid = gridOf(floor, map, config, &floors);

@@ -52,7 +52,7 @@ void expectRoom(const FloorGrid& grid, double x_min, double x_max) {
 
 TEST(FloorGrid, WallsAndTablesAreOccupiedAndTheGroundIsNot) {
   FlatWorld world = roomOf6by4();
-  world.rectangles.push_back({{3.05, 0.55, 0.75}, {0.8, 0, 0}, {0, 0.8, 0}});  // a table top
+  world.rectangles.push_back({{3.05, 0.55, 0.45}, {0.8, 0, 0}, {0, 0.8, 0}});  // a table top
   world.rectangles.push_back({{4.55, 3.05, 0.05}, {0.5, 0, 0}, {0, 0.5, 0}});  // a sill
   GraphSnapshot graph = onFloor(walkThrough(world, 6), FloorId{4});
   graph.floors.push_back(floorAt(4, 0.0));
