@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "cell_key.h"
+#include "mrpt_sgraphs/geometry/cell_key.h"
 
 namespace mrpt_sgraphs {
 namespace {

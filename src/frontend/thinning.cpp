@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "cell_key.h"
+#include "mrpt_sgraphs/geometry/cell_key.h"
 
 namespace mrpt_sgraphs {
 namespace {

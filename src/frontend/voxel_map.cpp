@@ -8,8 +8,8 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "cell_key.h"
 #include "mrpt_sgraphs/geometry/archive.h"
+#include "mrpt_sgraphs/geometry/cell_key.h"
 
 namespace mrpt_sgraphs {
 namespace {

@@ -8,7 +8,6 @@
 
 #include <utility>
 
-#include "mrpt_sgraphs/mapping/map_cloud.h"
 #include "mrpt_sgraphs/mapping/wall_points.h"
 #include "mrpt_sgraphs/ros/conversions.h"
 
@@ -17,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kQueueSize = 1;
 constexpr bool kLatched = true;
-constexpr double kMapResolution_m = 0.1;  ///< Coarser than what is saved: it goes over the network.
+constexpr double kResolution_m = 0.1;  ///< Coarser than what is saved: it goes over the network.
 
 }  // namespace
 
@@ -26,17 +25,16 @@ DisplayPublisher::DisplayPublisher(ros::NodeHandle& nh, GraphView view, Source s
       source_(std::move(source)),
       markers_pub_(nh.advertise<visualization_msgs::MarkerArray>("markers", kQueueSize, kLatched)),
       trajectory_pub_(nh.advertise<nav_msgs::Path>("trajectory", kQueueSize, kLatched)),
-      map_pub_(nh.advertise<Cloud>("map_points", kQueueSize, kLatched)),
       wall_points_pub_(nh.advertise<ColouredCloud>("wall_points", kQueueSize, kLatched)),
       graph_timer_(nh.createSteadyTimer(ros::WallDuration(1.0),
                                         [this](const ros::SteadyTimerEvent&) {
                                           publishMarkers();
                                           publishTrajectory();
                                         })),
-      map_timer_(nh.createSteadyTimer(ros::WallDuration(3.0), [this](const ros::SteadyTimerEvent&) {
-        publishMap();
-        publishWallPoints();
-      })) {}
+      points_timer_(
+          nh.createSteadyTimer(ros::WallDuration(3.0), [this](const ros::SteadyTimerEvent&) {
+            publishWallPoints();
+          })) {}
 
 void DisplayPublisher::publishMarkers() {
   const GraphSnapshotConstPtr graph = source_.graph();
@@ -51,21 +49,12 @@ void DisplayPublisher::publishTrajectory() {
   trajectory_pub_.publish(toMsg(source_.trajectory(), view_.map_frame));
 }
 
-void DisplayPublisher::publishMap() {
-  const GraphSnapshotConstPtr graph = source_.graph();
-  if (!graph || graph == graph_in_map_ || map_pub_.getNumSubscribers() == 0) return;
-  graph_in_map_ = graph;
-  const auto map = mapCloud(*graph, kMapResolution_m);
-  map->header.frame_id = view_.map_frame;
-  map_pub_.publish(pcl::ros_ptr(map));
-}
-
 void DisplayPublisher::publishWallPoints() {
   const GraphSnapshotConstPtr graph = source_.graph();
   if (!graph || graph == graph_in_wall_points_ || wall_points_pub_.getNumSubscribers() == 0) return;
   graph_in_wall_points_ = graph;
   WallPointsConfig config;
-  config.resolution_m = kMapResolution_m;
+  config.resolution_m = kResolution_m;
   const auto points = wallPoints(*graph, config);
   points->header.frame_id = view_.map_frame;
   wall_points_pub_.publish(pcl::ros_ptr(points));

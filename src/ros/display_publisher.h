@@ -20,8 +20,8 @@ namespace mrpt_sgraphs {
 ///
 /// Publishes  markers     (visualization_msgs/MarkerArray, latched)  the layers, every second
 ///            trajectory  (nav_msgs/Path, latched)                   every scan, every second
-///            map_points  (sensor_msgs/PointCloud2, latched)         decimated, every three seconds
-///            wall_points (sensor_msgs/PointCloud2, latched)         the same, coloured by walls
+///            wall_points (sensor_msgs/PointCloud2, latched)         decimated, every three seconds,
+///                                                                   coloured by walls
 /// All but the trajectory only if the graph changed.
 class DisplayPublisher {
  public:
@@ -37,20 +37,17 @@ class DisplayPublisher {
  private:
   void publishMarkers();
   void publishTrajectory();
-  void publishMap();
   void publishWallPoints();
 
   const GraphView view_;
   const Source source_;
   GraphSnapshotConstPtr graph_in_markers_;
-  GraphSnapshotConstPtr graph_in_map_;
   GraphSnapshotConstPtr graph_in_wall_points_;
   ros::Publisher markers_pub_;
   ros::Publisher trajectory_pub_;
-  ros::Publisher map_pub_;
   ros::Publisher wall_points_pub_;
   ros::SteadyTimer graph_timer_;
-  ros::SteadyTimer map_timer_;  ///< Last members: no callback outlives the others.
+  ros::SteadyTimer points_timer_;  ///< Last members: no callback outlives the others.
 };
 
 }  // namespace mrpt_sgraphs

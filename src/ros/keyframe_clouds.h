@@ -15,14 +15,20 @@ namespace mrpt_sgraphs {
 /// ones that the back end has. May be used from several threads.
 class KeyframeClouds {
  public:
+  /// What becomes of a keyframe that has no cloud here.
+  enum class Without { kLeaveOut, kKeep };
+
   /// One that is not newer than the last begins anew: time has started again.
   void add(const Cloud::ConstPtr& cloud);
 
-  /// Gives each keyframe the cloud of its stamp, leaves out those that have none, and forgets the
-  /// clouds up to the newest keyframe that are of none.
+  /// Gives each keyframe the cloud of its stamp, leaves out or keeps those that have none, and
+  /// forgets the clouds up to the newest keyframe that are of none.
   /// @return False if the newest keyframe has none: the graph is of another time than the clouds,
   ///         both stay as they are.
-  bool attachTo(GraphSnapshot* graph);
+  bool attachTo(GraphSnapshot* graph, Without without = Without::kLeaveOut);
+
+  /// The cloud of a keyframe is needed no more.
+  void forget(double stamp_s);
 
  private:
   std::mutex mutex_;                                 ///< Guards the next one.

@@ -16,13 +16,6 @@
 namespace mrpt_sgraphs {
 namespace {
 
-/// Whether what a keyframe has seen lies in other cells than before.
-bool hasMoved(const Pose& from, const Pose& to, double cell_m) {
-  constexpr double kLever_m = 5.0;  // most of what it sees is nearer
-  const Tangent way = local(from, to);
-  return way.head<3>().norm() + kLever_m * way.tail<3>().norm() > 0.5 * cell_m;
-}
-
 Eigen::Vector2d placeOf(const KeyframeNode& keyframe, const Pose& T_floor_map) {
   return (T_floor_map * keyframe.T_map_base.translation()).head<2>();
 }
@@ -106,31 +99,10 @@ std::vector<RegionMap::Opening> doorwaysOf(const RegionMap& map) {
 
 bool StoreyRooms::integrate(const std::vector<const KeyframeNode*>& keyframes,
                             const Pose& T_floor_map) {
-  bool changed = false;
-  std::set<KeyframeId> present;
-  for (const KeyframeNode* keyframe : keyframes) {
-    if (keyframe->cloud == nullptr) continue;  // what it has seen goes with its cloud
-    present.insert(keyframe->id);
-    const Pose T_floor_base = T_floor_map * keyframe->T_map_base;
-    const auto known = integrated_.find(keyframe->id);
-    if (known != integrated_.end()) {
-      if (!hasMoved(known->second.T_floor_base, T_floor_base, space_.cell_m())) continue;
-      space_.remove(*known->second.cloud, known->second.T_floor_base);
-    }
-    space_.add(*keyframe->cloud, T_floor_base);
-    integrated_[keyframe->id] = {T_floor_base, keyframe->cloud};
-    changed = true;
-  }
-  for (auto entry = integrated_.begin(); entry != integrated_.end();) {
-    if (present.count(entry->first) > 0) {
-      ++entry;
-      continue;
-    }
-    space_.remove(*entry->second.cloud, entry->second.T_floor_base);
-    entry = integrated_.erase(entry);
-    changed = true;
-  }
-  return changed;
+  return placed_.update(
+      keyframes, T_floor_map,
+      [this](const Cloud& cloud, const Pose& T_floor_base) { space_.add(cloud, T_floor_base); },
+      [this](const Cloud& cloud, const Pose& T_floor_base) { space_.remove(cloud, T_floor_base); });
 }
 
 std::vector<DetectedRoom> StoreyRooms::detect(const std::vector<const KeyframeNode*>& keyframes,

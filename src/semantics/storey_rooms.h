@@ -3,13 +3,13 @@
 
 #pragma once
 
-#include <map>
 #include <optional>
 #include <vector>
 
 #include "mrpt_sgraphs/graph/archive_graph.h"
 #include "mrpt_sgraphs/graph/snapshot.h"
 #include "mrpt_sgraphs/mapping/free_space.h"
+#include "mrpt_sgraphs/mapping/placed_clouds.h"
 #include "mrpt_sgraphs/semantics/detected_room.h"
 #include "mrpt_sgraphs/semantics/room_detector_config.h"
 
@@ -19,7 +19,10 @@ namespace mrpt_sgraphs {
 class StoreyRooms {
  public:
   StoreyRooms(const RoomDetectorConfig& config, std::optional<FloorId> floor)
-      : config_(config), floor_(floor), space_(config.free_space) {}
+      : config_(config),
+        floor_(floor),
+        space_(config.free_space),
+        placed_(kTolerance * config.free_space.cell_m) {}
 
   /// Takes into the free space what is new or has moved, and out of it what is gone: keyframes, or
   /// their clouds.
@@ -41,30 +44,23 @@ class StoreyRooms {
   void archive(Archive& a) {
     CellBox known = space_.box();
     a("known", known);
-    a("integrated", integrated_);
+    a("placed", placed_);
     if constexpr (Archive::kReads) {
       // sums are exact: what is added again is what was there
-      for (const auto& [id, seen] : integrated_) space_.add(*seen.cloud, seen.T_floor_base);
+      placed_.forEach([this](const Cloud& cloud, const Pose& T_floor_base) {
+        space_.add(cloud, T_floor_base);
+      });
       space_.extendBox(known);
     }
   }
 
  private:
-  struct Integrated {
-    Pose T_floor_base;
-    Cloud::ConstPtr cloud;
-
-    template <typename Archive>
-    void archive(Archive& a) {
-      a("T_floor_base", T_floor_base);
-      a("cloud", cloud);
-    }
-  };
+  static constexpr double kTolerance = 0.5;  ///< Of a cell.
 
   RoomDetectorConfig config_;
   std::optional<FloorId> floor_;
   FreeSpace space_;
-  std::map<KeyframeId, Integrated> integrated_;
+  PlacedClouds placed_;
 };
 
 }  // namespace mrpt_sgraphs

@@ -6,12 +6,12 @@
 #include <octomap/OcTree.h>
 
 #include <cstdint>
-#include <vector>
 
 #include "mrpt_sgraphs/geometry/cell_grid.h"
 #include "mrpt_sgraphs/geometry/point_cloud.h"
 #include "mrpt_sgraphs/geometry/pose.h"
 #include "mrpt_sgraphs/mapping/free_space_config.h"
+#include "mrpt_sgraphs/mapping/ray_marks.h"
 
 namespace mrpt_sgraphs {
 
@@ -58,22 +58,16 @@ class FreeSpace {
     int16_t free = 0;  ///< Voxels.
     int16_t occupied = 0;
   };
-  enum class Mark : uint8_t { kNone, kCrossed, kHit };
 
   void count(const Cloud& cloud_base, const Pose& T_floor_base, float sign);
-  void mark(const Eigen::Vector3f& sensor, const Eigen::Vector3f& point, bool is_hit);
   void weigh(const octomap::OcTreeKey& key, float delta);
 
   FreeSpaceConfig config_;
   octomap::OcTree tree_;
   CellGrid<Column> columns_;
   CellBox known_;
-  int bottom_ = 0;  ///< The lowest layer of voxels in the slab.
-  int layers_ = 0;
-
-  /// Of the cloud that is being added, around the sensor.
-  CellBox window_;
-  std::vector<Mark> marks_;
+  LayerRange slab_;
+  RayMarks marks_;  ///< Of the cloud that is being added.
 };
 
 }  // namespace mrpt_sgraphs

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "mrpt_sgraphs/mapping/map_config.h"
 #include "mrpt_sgraphs/semantics/floor_detector_config.h"
 #include "mrpt_sgraphs/semantics/relocation.h"
 #include "mrpt_sgraphs/semantics/room_detector_config.h"
@@ -16,6 +17,7 @@ struct BackEndConfig : GraphSlamConfig {
   RoomDetectorConfig room_detection;
   RelocationConfig relocation;
   LocalizationConfig localization;
+  MapConfig map;
 
   /// The one list of its sections: `section(name, config)`.
   template <typename Self, typename Section>
@@ -30,6 +32,7 @@ struct BackEndConfig : GraphSlamConfig {
     section("solver", self.solver);
     section("relocation", self.relocation);
     section("localization", self.localization);
+    section("map", self.map);
   }
 };
 
