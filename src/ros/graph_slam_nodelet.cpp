@@ -22,6 +22,7 @@
 #include "mrpt_sgraphs/ros/conversions.h"
 #include "mrpt_sgraphs/ros/detections.h"
 #include "pipeline_nodelet.h"
+#include "room_services.h"
 #include "stamp_matcher.h"
 #include "throttle.h"
 
@@ -47,7 +48,7 @@ std::size_t droppedIn(const GraphSnapshot& graph) {
 ///             initialpose      (geometry_msgs/PoseWithCovarianceStamped) where the robot is in a map
 ///                              that was loaded
 /// Publishes   see GraphPublisher, DisplayPublisher and KnownClouds
-/// Serves      see GraphServices; LiveHierarchy in hierarchy
+/// Serves      see GraphServices and RoomServices; LiveHierarchy in hierarchy
 /// Parameters  loop_closure/*, walls/*, ground/*, rooms/*, hierarchy/*, solver/*, and for the
 ///             record of a run all of SlamConfig
 ///             frames/map, frames/odom                          FramesConfig
@@ -79,6 +80,8 @@ class GraphSlamNodelet final : public PipelineNodelet {
     ros::NodeHandle patient_nh(nh);
     patient_nh.setCallbackQueue(&patient_queue_);
     services_ = std::make_unique<GraphServices>(patient_nh, *slam_, map_frame_);
+    room_services_ = std::make_unique<RoomServices>(patient_nh, *slam_,
+                                                    [this] { return publisher_->graph(); });
     display_ = std::make_unique<DisplayPublisher>(
         patient_nh, GraphView{frameName(frames.map), display.layer_lift_m},
         DisplayPublisher::Source{[this] { return publisher_->graph(); },
@@ -251,6 +254,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
   std::unique_ptr<GraphSlamThread> slam_;
   ros::CallbackQueue patient_queue_;  ///< For what may wait for the back end.
   std::unique_ptr<GraphServices> services_;
+  std::unique_ptr<RoomServices> room_services_;
   std::unique_ptr<DisplayPublisher> display_;
   std::unique_ptr<LiveHierarchy> hierarchy_;
   ros::AsyncSpinner patient_spinner_{1, &patient_queue_};

@@ -176,6 +176,13 @@ std::string GraphSlamThread::rescue() {
   }
 }
 
+std::future<void> GraphSlamThread::nameRoom(RoomId room, const std::string& name) {
+  return ask<void>([this, room, name] {
+    session_->slam.nameRoom(room, name);
+    tellGraph();
+  });
+}
+
 std::future<OptimizationSummary> GraphSlamThread::optimize() {
   return ask<OptimizationSummary>([this] {
     const OptimizationSummary summary = session_->slam.optimize();
