@@ -110,7 +110,7 @@ class RoomServicesTest(unittest.TestCase):
         rospy.ServiceProxy('/sgraphs/optimize', Optimize)()
         self.assertTrue(wait_for(lambda: self.room(self.first).name == 'Büro 12', 5.0))
         folder = os.path.join(tempfile.mkdtemp(), 'run')
-        self.assertTrue(rospy.ServiceProxy('/sgraphs/dump', Dump)(folder).success)
+        self.assertTrue(rospy.ServiceProxy('/sgraphs/dump', Dump)(folder, True).success)
         with open(os.path.join(folder, 'graph.json'), encoding='utf-8') as text:
             names = {room['id']: room['name'] for room in json.load(text)['rooms']}
         self.assertEqual(names[self.first], 'Büro 12')

@@ -55,6 +55,7 @@ class RoomLayer {
     a("measured_walls", measured_walls_);
     a("measured_keyframes", measured_keyframes_);
     a("losses", losses_);
+    a("names", names_);
   }
 
  private:

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,11 +36,24 @@ class LostRoomNames {
   void giveBack(const std::vector<std::optional<RoomId>>& rooms,
                 const std::vector<RoomAttributes>& outlines, LayeredGraph* graph);
 
+  /// See geometry/archive.h.
+  template <typename Archive>
+  void archive(Archive& a) {
+    a("lost", lost_);
+  }
+
  private:
   struct Lost {
     std::string name;
     KeyframeId anchor;
-    Eigen::Vector3d centre_anchor;
+    Eigen::Vector3d centre_anchor = Eigen::Vector3d::Zero();
+
+    template <typename Archive>
+    void archive(Archive& a) {
+      a("name", name);
+      a("anchor", anchor);
+      a("centre", centre_anchor);
+    }
   };
 
   std::vector<Lost> lost_;
