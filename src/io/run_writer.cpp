@@ -9,11 +9,15 @@
 #include <fstream>
 #include <iomanip>
 #include <locale>
+#include <optional>
 #include <stdexcept>
 
 #include "mrpt_sgraphs/io/cloud_file.h"
 #include "mrpt_sgraphs/io/exports.h"
+#include "mrpt_sgraphs/io/floor_plan.h"
 #include "mrpt_sgraphs/io/folder_version.h"
+#include "mrpt_sgraphs/io/geojson.h"
+#include "mrpt_sgraphs/io/graphml.h"
 #include "mrpt_sgraphs/io/state_files.h"
 #include "mrpt_sgraphs/mapping/map_cloud.h"
 #include "run_report.h"
@@ -79,6 +83,17 @@ void writeParameters(const std::map<std::string, std::string>& parameters, std::
   }
 }
 
+void writeFloorPlans(const std::filesystem::path& folder, const GraphSnapshot& graph) {
+  const auto write = [&](const std::string& name, std::optional<FloorId> floor) {
+    writeFile((folder / name).string(),
+              [&](std::ostream& out) { writeFloorPlan(graph, floor, out); });
+  };
+  for (const FloorNode& floor : graph.floors) {
+    write("floor_" + std::to_string(floor.id.value) + ".svg", floor.id);
+  }
+  if (graph.floors.empty()) write("no_floor.svg", std::nullopt);
+}
+
 void writeFiles(const std::filesystem::path& folder, const RunRecord& run) {
   const auto in = [&folder](const std::string& name) { return (folder / name).string(); };
   writeTum(in("trajectory.tum"), run.trajectory);
@@ -86,6 +101,9 @@ void writeFiles(const std::filesystem::path& folder, const RunRecord& run) {
   writeTum(in("keyframes.tum"), keyframeTrajectory(*run.graph));
   writeFile(in("graph.json"), [&](std::ostream& out) { writeGraphJson(*run.graph, out); });
   writeFile(in("graph.g2o"), [&](std::ostream& out) { writeG2o(*run.graph, out); });
+  writeFile(in("graph.graphml"), [&](std::ostream& out) { writeGraphMl(*run.graph, out); });
+  writeFile(in("rooms.geojson"), [&](std::ostream& out) { writeGeoJson(*run.graph, out); });
+  writeFloorPlans(folder, *run.graph);
   writeFile(in("map.pcd"), [&](std::ostream& out) {
     writePcd(*mapCloud(*run.graph, run.map_resolution_m), out);
   });

@@ -85,6 +85,14 @@ GraphFactor toMsg(const Factor& factor) {
 
 }  // namespace
 
+GraphRoom toMsg(const GraphSnapshot& graph, const RoomNode& room) {
+  std::vector<KeyframeId> keyframes;
+  for (const KeyframeNode& node : graph.keyframes) {
+    if (node.room == room.id) keyframes.push_back(node.id);
+  }
+  return toMsg(room, keyframes);
+}
+
 SituationalGraph toMsg(const GraphSnapshot& graph, const std::string& map_frame) {
   std::map<RoomId, std::vector<KeyframeId>> keyframes_in;
   for (const KeyframeNode& node : graph.keyframes) {

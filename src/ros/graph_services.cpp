@@ -3,7 +3,6 @@
 #include "graph_services.h"
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 #include "mrpt_sgraphs/io/exports.h"
 #include "mrpt_sgraphs/mapping/map_cloud.h"
 #include "mrpt_sgraphs/ros/conversions.h"
+#include "service_answer.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -35,20 +35,6 @@ std::string filesIn(const fs::path& folder) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
-}
-
-/// Answers with success and what `work` says, or with the reason why not.
-template <typename Response, typename Work>
-bool answer(Response& response, const Work& work) {
-  try {
-    response.message = work();
-    response.success = true;
-  } catch (const std::exception& error) {
-    response.message = error.what();
-    response.success = false;
-    ROS_WARN("%s", error.what());
-  }
-  return true;  // false would hide the message from the user
 }
 
 }  // namespace

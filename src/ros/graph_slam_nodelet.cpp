@@ -24,6 +24,7 @@
 #include "mrpt_sgraphs/ros/conversions.h"
 #include "mrpt_sgraphs/ros/detections.h"
 #include "pipeline_nodelet.h"
+#include "room_services.h"
 #include "throttle.h"
 
 namespace mrpt_sgraphs {
@@ -43,7 +44,7 @@ std::size_t droppedIn(const GraphSnapshot& graph) {
 ///             floors           (mrpt_sgraphs/Floors)           found in graphs of ours
 ///             rooms            (mrpt_sgraphs/Rooms)            likewise
 /// Publishes   see GraphPublisher, MapToOdom, DisplayPublisher and KnownClouds
-/// Serves      see GraphServices; LiveHierarchy in hierarchy
+/// Serves      see GraphServices and RoomServices; LiveHierarchy in hierarchy
 /// Parameters  loop_closure/*, walls/*, ground/*, rooms/*, hierarchy/*, solver/*, and for the
 ///             record of a run all of SlamConfig
 ///             frames/map, frames/odom                          FramesConfig
@@ -76,6 +77,8 @@ class GraphSlamNodelet final : public PipelineNodelet {
     ros::NodeHandle patient_nh(nh);
     patient_nh.setCallbackQueue(&patient_queue_);
     services_ = std::make_unique<GraphServices>(patient_nh, *slam_, map_frame_);
+    room_services_ = std::make_unique<RoomServices>(patient_nh, *slam_,
+                                                    [this] { return publisher_->graph(); });
     display_ = std::make_unique<DisplayPublisher>(
         patient_nh, GraphView{frameName(frames.map), display.layer_lift_m},
         DisplayPublisher::Source{[this] { return publisher_->graph(); },
@@ -202,6 +205,7 @@ class GraphSlamNodelet final : public PipelineNodelet {
   std::unique_ptr<GraphSlamThread> slam_;
   ros::CallbackQueue patient_queue_;  ///< For what may wait for the back end.
   std::unique_ptr<GraphServices> services_;
+  std::unique_ptr<RoomServices> room_services_;
   std::unique_ptr<DisplayPublisher> display_;
   std::unique_ptr<LiveHierarchy> hierarchy_;
   ros::AsyncSpinner patient_spinner_{1, &patient_queue_};

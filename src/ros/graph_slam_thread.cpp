@@ -169,6 +169,13 @@ std::string GraphSlamThread::rescue() {
   }
 }
 
+std::future<void> GraphSlamThread::nameRoom(RoomId room, const std::string& name) {
+  return jobs_.ask<void>([this, room, name] {
+    session_->slam.nameRoom(room, name);
+    tellGraph();
+  });
+}
+
 std::future<OptimizationSummary> GraphSlamThread::optimize() {
   return jobs_.ask<OptimizationSummary>([this] {
     const OptimizationSummary summary = session_->slam.optimize();

@@ -63,6 +63,9 @@ class GraphSlamThread {
   /// happens where that is known.
   void guess(const Pose& T_map_base);
 
+  /// What GraphSlam::nameRoom throws comes with the future.
+  std::future<void> nameRoom(RoomId room, const std::string& name);
+
   std::future<OptimizationSummary> optimize();
   /// What there is.
   std::future<RunRecord> record();

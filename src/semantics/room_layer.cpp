@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 #include <set>
-#include <string>
 
 #include "mrpt_sgraphs/semantics/room_factors.h"
 #include "mrpt_sgraphs/semantics/room_matching.h"
@@ -37,15 +36,6 @@ bool isSame(const RoomAttributes& a, const RoomAttributes& b) {
                     [](const Outline3& p, const Outline3& q) { return isSame(p, q); }) &&
          std::equal(a.doorways.begin(), a.doorways.end(), b.doorways.begin(), b.doorways.end(),
                     [](const Doorway& p, const Doorway& q) { return isSame(p, q); });
-}
-
-/// "corridor 5", until somebody gives it another one.
-std::string defaultName(RoomAttributes::Kind kind, RoomId id) {
-  using Kind = RoomAttributes::Kind;
-  const char* const word = kind == Kind::kCorridor    ? "corridor "
-                           : kind == Kind::kStairwell ? "stairwell "
-                                                      : "room ";
-  return word + std::to_string(id.value);
 }
 
 std::vector<WallId> wallsOf(const DetectedRoom& room) {
@@ -130,6 +120,7 @@ bool RoomLayer::update(const RoomDetection& detection, LayeredGraph* graph) {
   }
   std::vector<RoomAttributes> attributes = attributesOf(rooms, nodes, *graph);
   makeDoorwaysMutual(rooms, nodes, &attributes);
+  names_.giveBack(nodes, attributes, graph);
   updateExactness(rooms, *graph);
   for (std::size_t k = 0; k < rooms.size(); ++k) {
     if (!nodes[k]) continue;
@@ -183,6 +174,7 @@ bool RoomLayer::eraseAllBut(const std::vector<std::optional<RoomId>>& nodes,
     if (is_taken || ++missed_[id] >= kMaxMissed) gone.push_back(id);
   }
   for (const RoomId id : gone) {
+    names_.remember(id, known_[id].room.anchor, *graph);
     graph->eraseNode(id);
     known_.erase(id);
     missed_.erase(id);
@@ -222,8 +214,8 @@ void RoomLayer::updateExactness(const std::vector<DetectedRoom>& rooms, const La
 bool RoomLayer::bringInLine(RoomId id, const DetectedRoom& room, RoomAttributes attributes,
                             LayeredGraph* graph) {
   const RoomAttributes& before = graph->attributes(id);
-  const bool is_named = !before.name.empty() && before.name != defaultName(before.kind, id);
-  attributes.name = is_named ? before.name : defaultName(attributes.kind, id);
+  attributes.name =
+      isNamedByUser(id, before) ? before.name : defaultRoomName(attributes.kind, id);
   const bool is_new = known_.count(id) == 0;
   Known& known = known_[id];
   if (is_new || !isSame(attributes, before)) {

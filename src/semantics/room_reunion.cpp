@@ -9,8 +9,8 @@
 #include <limits>
 #include <vector>
 
-#include "mrpt_sgraphs/geometry/plane_frame.h"
 #include "mrpt_sgraphs/graph/uncertainty.h"
+#include "mrpt_sgraphs/semantics/places.h"
 #include "mrpt_sgraphs/semantics/room_matching.h"
 
 namespace mrpt_sgraphs {
@@ -26,18 +26,12 @@ constexpr double kGateInflation = 4.0;
 constexpr double kGuessSigma_m = 0.15;
 constexpr double kGuessSigma_rad = 0.02;
 
-bool isIn(const RoomNode& room, const Eigen::Vector3d& point_map) {
-  if (room.extent_map.outline.size() < 3) return false;
-  const PlaneFrame frame(Plane{}, room.extent_map.outline.front());
-  return contains(flattened(room.extent_map, frame), frame.flat(point_map));
-}
-
 const RoomNode* roomOf(const KeyframeNode& keyframe, const GraphSnapshot& graph) {
   for (const RoomNode& room : graph.rooms) {
     // of a keyframe that no detection has seen yet, its place tells
     if (keyframe.room ? *keyframe.room == room.id
                       : (!keyframe.floor || room.floor == keyframe.floor) &&
-                            isIn(room, keyframe.T_map_base.translation())) {
+                            isAround(room, keyframe.T_map_base.translation())) {
       return &room;
     }
   }

@@ -255,6 +255,13 @@ std::vector<OptimizationSummary> GraphSlam::setRooms(const RoomDetection& detect
   return optimizations;
 }
 
+void GraphSlam::nameRoom(RoomId room, const std::string& name) {
+  requireName(*state_->graph.snapshot(), room, name);
+  RoomAttributes attributes = state_->graph.attributes(room);
+  attributes.name = name;
+  state_->graph.setAttributes(room, attributes);
+}
+
 OptimizationSummary GraphSlam::optimize() {
   std::vector<OptimizationSummary> optimizations;
   state_->settle(State::Stage::kEverything, &optimizations);

@@ -60,8 +60,8 @@ struct RunRecord {
 void requireWritableFolder(const std::string& folder);
 
 /// Writes a run as a FolderVersion: trajectory.tum, odometry.tum, keyframes.tum, graph.json,
-/// graph.g2o, map.pcd, optimizations.csv, scans.csv, report.json, parameters.yaml, and its state with
-/// the keyframes' clouds. `folder` is then a link to all of it, or to all that was there before.
+/// graph.g2o, graph.graphml, rooms.geojson, floor_<id>.svg, map.pcd, optimizations.csv, scans.csv,
+/// report.json, parameters.yaml, and its state with the keyframes' clouds. `folder` is then a link to all of it, or to all that was there before.
 /// @throws std::runtime_error naming the file and the reason.
 void writeRun(const std::string& folder, const RunRecord& run);
 

@@ -83,6 +83,8 @@ Cloud::Ptr toCloud(const sensor_msgs::PointCloud2& msg);
 
 /// The session is left to be filled in; see toSnapshot for the way back.
 SituationalGraph toMsg(const GraphSnapshot& graph, const std::string& map_frame);
+/// One room of it, as it is in the message of the whole.
+GraphRoom toMsg(const GraphSnapshot& graph, const RoomNode& room);
 OptimizationReport toMsg(const OptimizationSummary& summary, const std::string& map_frame);
 nav_msgs::Path toMsg(const Trajectory& trajectory, const std::string& map_frame);
 

@@ -11,6 +11,7 @@
 #include "mrpt_sgraphs/semantics/detected_room.h"
 #include "mrpt_sgraphs/semantics/right_angles.h"
 #include "mrpt_sgraphs/semantics/room_layer_config.h"
+#include "mrpt_sgraphs/semantics/room_names.h"
 
 namespace mrpt_sgraphs {
 
@@ -19,8 +20,8 @@ namespace mrpt_sgraphs {
 ///
 /// A room keeps its id while it grows and while the graph moves. Rooms that have become one are the
 /// oldest of them, of a room that has become several the largest part keeps the id, and a room that
-/// was not found a few times is erased. Nothing depends on the map's origin or on the directions of
-/// its x and y.
+/// was not found a few times is erased. The name that a user gave stays with the place. Nothing
+/// depends on the map's origin or on the directions of its x and y.
 class RoomLayer {
  public:
   explicit RoomLayer(const RoomLayerConfig& config) : config_(config) {}
@@ -54,6 +55,7 @@ class RoomLayer {
     a("measured_walls", measured_walls_);
     a("measured_keyframes", measured_keyframes_);
     a("losses", losses_);
+    a("names", names_);
   }
 
  private:
@@ -90,6 +92,7 @@ class RoomLayer {
   RoomLayerConfig config_;
   std::map<RoomId, Known> known_;
   std::map<RoomId, int> missed_;  ///< How often in a row each was not found, of those that were not.
+  LostRoomNames names_;
   std::vector<RoomId> grown_;
   RightAngles exactness_;  ///< Of the building, as far as it is known, and what from:
   std::vector<WallId> measured_walls_;

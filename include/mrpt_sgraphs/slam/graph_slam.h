@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "mrpt_sgraphs/frontend/keyframe_selector.h"
@@ -47,6 +48,9 @@ class GraphSlam {
   /// optimizes if there are new factors.
   std::vector<OptimizationSummary> setFloors(const FloorDetection& detection);
   std::vector<OptimizationSummary> setRooms(const RoomDetection& detection);
+
+  /// @throws std::invalid_argument, std::out_of_range as requireName does.
+  void nameRoom(RoomId room, const std::string& name);
 
   /// Optimizes the whole graph now; walls that grow together by it are merged.
   OptimizationSummary optimize();
