@@ -7,8 +7,8 @@
 #include <string>
 
 #include "mrpt_sgraphs/graph/snapshot.h"
+#include "mrpt_sgraphs/mapping/shown_places.h"
 #include "mrpt_sgraphs/solver/optimization_summary.h"
-#include "shown_places.h"
 
 namespace mrpt_sgraphs {
 

@@ -12,7 +12,7 @@
 
 #include "mrpt_sgraphs/geometry/triangulation.h"
 #include "mrpt_sgraphs/mapping/node_colour.h"
-#include "shown_places.h"
+#include "mrpt_sgraphs/mapping/shown_places.h"
 
 namespace mrpt_sgraphs {
 

@@ -17,12 +17,6 @@ constexpr double kDoorwayEdge_m = 0.08;
 constexpr double kText_m = 0.9;
 constexpr double kTextAbove_m = 1.3;
 
-/// The ground of a room: level, through its centre.
-Plane groundOf(const RoomNode& room) {
-  const Eigen::Vector3d up = room.T_map_room.linear().col(2);
-  return {up, up.dot(room.T_map_room.translation())};
-}
-
 /// To the doorways of each room; with those of the room on the other side, from room to room.
 void addDoorways(const RoomNode& room, const ShownPlaces& places, Marker* doorways, Marker* edges) {
   for (const Doorway& doorway : room.doorways) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shown_places.h"
+#include "mrpt_sgraphs/mapping/shown_places.h"
 
 #include <cmath>
 #include <cstddef>

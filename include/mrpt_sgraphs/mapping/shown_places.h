@@ -9,6 +9,12 @@
 
 namespace mrpt_sgraphs {
 
+/// The ground of a room: level, through its centre.
+inline Plane groundOf(const RoomNode& room) {
+  const Eigen::Vector3d up = room.T_map_room.linear().col(2);
+  return {up, up.dot(room.T_map_room.translation())};
+}
+
 /// Where the nodes of a graph are shown, in `map`: keyframes where they are, walls at the middle of
 /// their extents, rooms and floors above their centres; each layer a lift above the one below.
 class ShownPlaces {

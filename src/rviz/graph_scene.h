@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "graph_palette.h"
+#include "mrpt_sgraphs/mapping/shown_places.h"
+#include "shown_graph.h"
+
+namespace mrpt_sgraphs {
+
+/// What of a graph is shown, and how. Without a layer there is nothing that ends at its nodes.
+struct SceneOptions {
+  bool keyframes = true;
+  bool dropped_keyframes = true;
+  bool odometry = true;
+  bool loop_closures = true;
+  bool condensed_factors = true;
+  bool representatives = false;  ///< From each dropped keyframe to the one that it moves with.
+  bool walls = true;
+  bool wall_sightings = true;
+  bool wall_pairs = false;
+  bool rooms = true;
+  bool room_walls = true;
+  bool doorways = true;
+  bool floors = true;
+  bool floor_rooms = true;
+  bool stairs = true;
+  bool ground_sightings = false;
+  bool node_labels = true;  ///< Of rooms and floors.
+  bool wall_labels = false;
+  bool keyframe_labels = false;  ///< Of the nearest ones.
+
+  ColourBy colour_by = ColourBy::kRoom;
+  double layer_lift_m = 10.0;
+  float wall_alpha = 0.5F;
+  float room_alpha = 0.4F;
+  float label_height_m = 0.9F;  ///< Of a room; floors are larger, walls and keyframes smaller.
+  double near_m = 30.0;         ///< Keyframes beyond are thinned; 0: none.
+  int thin_above = 1000;        ///< Unless there are no more of them than this.
+};
+
+/// Spheres or boxes of one size.
+struct PointSet {
+  enum class Shape : std::uint8_t { kSphere, kBox };
+  struct Point {
+    Eigen::Vector3f at;
+    Eigen::Vector3f rgb;
+    NodeId node;  ///< That is picked by it.
+  };
+
+  Shape shape = Shape::kSphere;
+  float size_m = 0.0F;  ///< Diameter or edge.
+  std::vector<Point> points = {};
+};
+
+struct LineSet {
+  struct Line {
+    Eigen::Vector3f from;
+    Eigen::Vector3f to;
+    Eigen::Vector3f rgb;
+  };
+
+  float width_m = 0.0F;  ///< 0: one pixel.
+  float alpha = 1.0F;
+  std::vector<Line> lines = {};
+};
+
+struct AreaSet {
+  struct Triangle {
+    std::array<Eigen::Vector3f, 3> corners;
+    Eigen::Vector3f rgb;
+    NodeId node;  ///< That is picked by it.
+  };
+
+  float alpha = 1.0F;
+  std::vector<Triangle> triangles = {};
+};
+
+struct Label {
+  std::string text;
+  Eigen::Vector3f at;  ///< The middle of its lower edge.
+  float height_m = 0.0F;
+};
+
+/// Ready to be drawn, in `map`: every set is one object of the renderer, however many nodes are in
+/// it. A kind of scene always has as many sets, in the same order.
+struct GraphScene {
+  std::vector<PointSet> points;
+  std::vector<LineSet> lines;
+  std::vector<AreaSet> areas;
+  std::vector<Label> labels;
+};
+
+/// A graph, and how it is to be drawn.
+struct GraphDrawing {
+  GraphDrawing(ShownGraphConstPtr shown_graph, const SceneOptions& scene_options)
+      : graph(std::move(shown_graph)),
+        options(scene_options),
+        palette(*graph, options.colour_by),
+        places(graph->nodes, options.layer_lift_m) {}
+
+  ShownGraphConstPtr graph;
+  SceneOptions options;
+  GraphPalette palette;
+  ShownPlaces places;
+};
+
+/// Walls, rooms, floors and what joins them: looks the same from everywhere.
+GraphScene structureScene(const GraphDrawing& drawing);
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "far_thinning.h"
+#include "graph_scene.h"
+
+namespace mrpt_sgraphs {
+
+/// Keyframes and what ends at them, as they are seen from somewhere: what is far from the eye is
+/// thinned. A line to a keyframe that is not shown goes to the one that stands for it, so that what
+/// is tied together stays so.
+class KeyframeScene {
+ public:
+  explicit KeyframeScene(std::shared_ptr<const GraphDrawing> drawing);
+
+  GraphScene seenFrom(const Eye& eye);
+
+  /// Whether it looks different from elsewhere.
+  bool dependsOnTheEye() const;
+
+  std::size_t count() const { return ids_.size(); }
+  /// By the last seenFrom().
+  std::size_t shownCount() const { return shown_count_; }
+
+ private:
+  struct Sets;
+
+  bool isThinned() const;
+  void add(const KeyframeNode& node);
+  NodeId shownFor(NodeId node) const;
+  bool isWanted(const Tie& tie) const;
+  void addKeyframes(Sets* sets) const;
+  void addTies(Sets* sets) const;
+  void addRepresentatives(Sets* sets) const;
+  std::vector<Label> labels(const Eye& eye) const;
+
+  std::shared_ptr<const GraphDrawing> drawing_;
+  std::vector<KeyframeId> ids_;  ///< Of those that may be shown, the kept ones first.
+  std::size_t kept_count_ = 0;
+  std::vector<Eigen::Vector3d> places_;
+  std::unordered_map<NodeId, std::size_t> index_of_;
+  std::vector<std::size_t> shown_;  ///< Index of the one that is shown for each.
+  std::size_t shown_count_ = 0;
+};
+
+}  // namespace mrpt_sgraphs

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstddef>
+
+#include "graph_scene.h"
+#include "mrpt_sgraphs/geometry/triangulation.h"
+
+namespace mrpt_sgraphs {
+namespace {
+
+constexpr float kWallNode_m = 0.2F;
+constexpr float kWallOutline_m = 0.03F;
+constexpr float kRoomNode_m = 1.0F;
+constexpr float kRoomOutline_m = 0.06F;
+constexpr float kRoomEdge_m = 0.04F;
+constexpr float kDoorway_m = 0.35F;
+constexpr float kWay_m = 0.08F;
+constexpr float kFloorNode_m = 1.6F;
+constexpr float kFloorEdge_m = 0.08F;
+constexpr float kStairs_m = 0.12F;
+constexpr float kPairEdge_m = 0.03F;
+constexpr double kAboveNode_m = 1.0;
+
+/// The sets of the scene, by what is in them.
+struct Sets {
+  PointSet wall_nodes{PointSet::Shape::kBox, kWallNode_m};
+  PointSet rooms{PointSet::Shape::kBox, kRoomNode_m};
+  PointSet doorways{PointSet::Shape::kSphere, kDoorway_m};
+  PointSet floors{PointSet::Shape::kSphere, kFloorNode_m};
+  AreaSet walls;
+  AreaSet grounds;
+  LineSet wall_outlines{kWallOutline_m};
+  LineSet wall_pairs{kPairEdge_m};
+  LineSet room_outlines{kRoomOutline_m};
+  LineSet room_walls{kRoomEdge_m, 0.7F};
+  LineSet ways{kWay_m};
+  LineSet floor_rooms{kFloorEdge_m, 0.7F};
+  LineSet stairs{kStairs_m};
+};
+
+const Eigen::Vector3f kDark(0.25F, 0.25F, 0.25F);
+const Eigen::Vector3f kStairsColour(0.8F, 0.5F, 0.1F);
+
+class StructureScene {
+ public:
+  explicit StructureScene(const GraphDrawing& drawing) : drawing_(drawing) {
+    sets_.walls.alpha = drawing.options.wall_alpha;
+    sets_.grounds.alpha = drawing.options.room_alpha;
+    if (drawing.options.walls) addWalls();
+    if (drawing.options.rooms) addRooms();
+    if (drawing.options.floors) addFloors();
+  }
+
+  GraphScene scene() const {
+    return {{sets_.wall_nodes, sets_.rooms, sets_.doorways, sets_.floors},
+            {sets_.wall_outlines, sets_.wall_pairs, sets_.room_outlines, sets_.room_walls,
+             sets_.ways, sets_.floor_rooms, sets_.stairs},
+            {sets_.walls, sets_.grounds},
+            labels_};
+  }
+
+ private:
+  const GraphSnapshot& nodes() const { return drawing_.graph->nodes; }
+  Eigen::Vector3d placeOf(NodeId node) const { return *drawing_.places.find(node); }
+
+  void addPoint(NodeId node, PointSet* points) const {
+    points->points.push_back({placeOf(node).cast<float>(), drawing_.palette.of(node), node});
+  }
+
+  static void addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                      const Eigen::Vector3f& rgb, LineSet* lines) {
+    lines->lines.push_back({from.cast<float>(), to.cast<float>(), rgb});
+  }
+
+  /// Nothing if one of them is not in the graph.
+  void addEdge(NodeId from, NodeId to, const Eigen::Vector3f& rgb, LineSet* lines) const {
+    const Eigen::Vector3d* const start = drawing_.places.find(from);
+    const Eigen::Vector3d* const end = drawing_.places.find(to);
+    if (start != nullptr && end != nullptr) addLine(*start, *end, rgb, lines);
+  }
+
+  void addArea(NodeId node, const PlanarExtent& extent_map, const Plane& plane_map,
+               AreaSet* area) const {
+    const auto shown = [&](const Eigen::Vector3d& corner_map) -> Eigen::Vector3f {
+      return drawing_.places.lifted(corner_map, node.layer).cast<float>();
+    };
+    for (const Triangle3& triangle : triangulated(extent_map, plane_map)) {
+      area->triangles.push_back({{shown(triangle[0]), shown(triangle[1]), shown(triangle[2])},
+                                 drawing_.palette.of(node),
+                                 node});
+    }
+  }
+
+  void addRing(NodeId node, const Outline3& ring, LineSet* lines) const {
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      addLine(drawing_.places.lifted(ring[k], node.layer),
+              drawing_.places.lifted(ring[(k + 1) % ring.size()], node.layer),
+              drawing_.palette.of(node), lines);
+    }
+  }
+
+  void addOutlines(NodeId node, const PlanarExtent& extent_map, LineSet* lines) const {
+    addRing(node, extent_map.outline, lines);
+    for (const Outline3& hole : extent_map.holes) addRing(node, hole, lines);
+  }
+
+  /// @param size  Of the letters, in those of a room's label.
+  void addLabel(NodeId node, const std::string& text, double above_m, float size) {
+    const Eigen::Vector3d at = placeOf(node) + above_m * Eigen::Vector3d::UnitZ();
+    labels_.push_back({text, at.cast<float>(), size * drawing_.options.label_height_m});
+  }
+
+  void addWalls() {
+    for (const WallNode& wall : nodes().walls) {
+      addPoint(wall.id, &sets_.wall_nodes);
+      addArea(wall.id, wall.extent_map, wall.plane_map, &sets_.walls);
+      addOutlines(wall.id, wall.extent_map, &sets_.wall_outlines);
+      if (drawing_.options.wall_labels) {
+        addLabel(wall.id, std::to_string(wall.id.value), kWallNode_m, 0.5F);
+      }
+    }
+    if (!drawing_.options.wall_pairs) return;
+    for (const Tie& tie : drawing_.graph->ties) {
+      if (tie.kind == TieKind::kWallPair) addEdge(tie.from, tie.to, kDark, &sets_.wall_pairs);
+    }
+  }
+
+  void addRooms() {
+    for (const RoomNode& room : nodes().rooms) {
+      addPoint(room.id, &sets_.rooms);
+      addArea(room.id, room.extent_map, groundOf(room), &sets_.grounds);
+      addOutlines(room.id, room.extent_map, &sets_.room_outlines);
+      if (drawing_.options.room_walls && drawing_.options.walls) {
+        for (const WallId wall : room.walls) {
+          addEdge(room.id, wall, drawing_.palette.of(room.id), &sets_.room_walls);
+        }
+      }
+      if (drawing_.options.doorways) addDoorways(room);
+      if (drawing_.options.node_labels) {
+        addLabel(room.id, room.name.empty() ? nameOf(room.id) : room.name, kAboveNode_m, 1.0F);
+      }
+    }
+  }
+
+  /// To the doorways of each room; with those of the room on the other side, from room to room.
+  void addDoorways(const RoomNode& room) {
+    for (const Doorway& doorway : room.doorways) {
+      const Eigen::Vector3d at = drawing_.places.lifted(doorway.centre_map, Layer::kRoom);
+      sets_.doorways.points.push_back({at.cast<float>(), kDark, room.id});
+      addLine(placeOf(room.id), at, kDark, &sets_.ways);
+    }
+  }
+
+  void addFloors() {
+    for (const FloorNode& floor : nodes().floors) {
+      addPoint(floor.id, &sets_.floors);
+      if (drawing_.options.stairs) addStairs(floor);
+      if (drawing_.options.node_labels) {
+        addLabel(floor.id, floor.name.empty() ? nameOf(floor.id) : floor.name, 1.5 * kAboveNode_m,
+                 1.4F);
+      }
+    }
+    if (!drawing_.options.rooms || !drawing_.options.floor_rooms) return;
+    for (const RoomNode& room : nodes().rooms) {
+      if (room.floor) {
+        addEdge(*room.floor, room.id, drawing_.palette.of(*room.floor), &sets_.floor_rooms);
+      }
+    }
+  }
+
+  void addStairs(const FloorNode& floor) {
+    for (const FloorConnection& connection : floor.connections) {
+      const Eigen::Vector3d* const other = drawing_.places.find(connection.to);
+      if (other == nullptr) continue;
+      const Eigen::Vector3d here = drawing_.places.lifted(connection.here_map, Layer::kFloor);
+      const Eigen::Vector3d there = drawing_.places.lifted(connection.there_map, Layer::kFloor);
+      addLine(placeOf(floor.id), here, kStairsColour, &sets_.stairs);
+      addLine(here, there, kStairsColour, &sets_.stairs);
+      addLine(there, *other, kStairsColour, &sets_.stairs);
+    }
+  }
+
+  const GraphDrawing& drawing_;
+  Sets sets_;
+  std::vector<Label> labels_;
+};
+
+}  // namespace
+
+GraphScene structureScene(const GraphDrawing& drawing) { return StructureScene(drawing).scene(); }
+
+}  // namespace mrpt_sgraphs
