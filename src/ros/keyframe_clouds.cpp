@@ -14,31 +14,46 @@ void KeyframeClouds::add(const Cloud::ConstPtr& cloud) {
   clouds_.emplace(stamp_us, cloud);
 }
 
+void KeyframeClouds::addKnown(const Cloud::ConstPtr& cloud) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  known_[cloud->header.stamp] = cloud;
+}
+
+/// known_.end() where there is none.
+KeyframeClouds::Clouds::const_iterator KeyframeClouds::find(double stamp_s) const {
+  const std::uint64_t stamp_us = toPclStamp(stamp_s);
+  const auto cloud = clouds_.find(stamp_us);
+  return cloud != clouds_.end() ? cloud : known_.find(stamp_us);
+}
+
 bool KeyframeClouds::attachTo(GraphSnapshot* graph, Without without) {
   if (graph->keyframes.empty()) return false;
-  const std::uint64_t newest_us = toPclStamp(graph->keyframes.back().stamp_s);
+  const double newest_s = graph->keyframes.back().stamp_s;
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (clouds_.count(newest_us) == 0) return false;
+  if (find(newest_s) == known_.end()) return false;
 
   SharedVector<KeyframeNode> with_clouds;
-  std::map<std::uint64_t, Cloud::ConstPtr> used(clouds_.upper_bound(newest_us), clouds_.end());
+  Clouds used(clouds_.upper_bound(toPclStamp(newest_s)), clouds_.end());
+  Clouds used_known;
   for (KeyframeNode keyframe : graph->keyframes) {
-    const auto cloud = clouds_.find(toPclStamp(keyframe.stamp_s));
-    if (cloud != clouds_.end()) {
-      keyframe.cloud = cloud->second;
-      used.insert(*cloud);
+    const auto cloud = find(keyframe.stamp_s);
+    if (cloud != known_.end()) {
+      if (!cloud->second->empty()) keyframe.cloud = cloud->second;
+      (known_.count(cloud->first) > 0 ? used_known : used).insert(*cloud);
     } else if (without == Without::kLeaveOut) {
       continue;
     }
     with_clouds.push_back(std::move(keyframe));
   }
   clouds_ = std::move(used);
+  known_ = std::move(used_known);
   graph->keyframes = std::move(with_clouds);
   return true;
 }
 
 void KeyframeClouds::forget(double stamp_s) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  known_.erase(toPclStamp(stamp_s));
   const auto cloud = clouds_.find(toPclStamp(stamp_s));
   // the newest tells whether time has started again
   if (cloud != clouds_.end() && std::next(cloud) != clouds_.end()) clouds_.erase(cloud);

@@ -21,6 +21,10 @@ class KeyframeClouds {
   /// One that is not newer than the last begins anew: time has started again.
   void add(const Cloud::ConstPtr& cloud);
 
+  /// One of a map that was loaded, older or newer than all others. Without points: the keyframe has
+  /// none any more, and nobody waits for it.
+  void addKnown(const Cloud::ConstPtr& cloud);
+
   /// Gives each keyframe the cloud of its stamp, leaves out or keeps those that have none, and
   /// forgets the clouds up to the newest keyframe that are of none.
   /// @return False if the newest keyframe has none: the graph is of another time than the clouds,
@@ -31,8 +35,13 @@ class KeyframeClouds {
   void forget(double stamp_s);
 
  private:
-  std::mutex mutex_;                                 ///< Guards the next one.
-  std::map<std::uint64_t, Cloud::ConstPtr> clouds_;  ///< By stamp [us].
+  using Clouds = std::map<std::uint64_t, Cloud::ConstPtr>;  ///< By stamp [us].
+
+  Clouds::const_iterator find(double stamp_s) const;
+
+  std::mutex mutex_;  ///< Guards the next two.
+  Clouds clouds_;
+  Clouds known_;
 };
 
 }  // namespace mrpt_sgraphs

@@ -28,6 +28,7 @@ namespace mrpt_sgraphs {
 ///
 /// Subscribes  graph            (mrpt_sgraphs/SituationalGraph, zero-copy)  and for its keyframes
 ///             keyframe_points  (Cloud, zero-copy)                          the same stamps
+///             known_points     (Cloud)                                     of a map that was loaded
 /// Publishes   see MapPublisher: every map/publish_period_s if something changed, or somebody came
 /// Parameters  map/*            MapConfig
 ///
@@ -45,6 +46,8 @@ class MapServerNodelet final : public PipelineNodelet {
     publisher_ = std::make_unique<MapPublisher>(nh, config_, [this] { is_asked_for_ = true; });
     worker_ = std::make_unique<Worker>([this](const auto& msg) { makeMaps(*msg); });
     cloud_sub_ = nh.subscribe("keyframe_points", kQueueSize, &MapServerNodelet::onCloud, this);
+    constexpr std::uint32_t kAll = 0;
+    known_sub_ = nh.subscribe("known_points", kAll, &MapServerNodelet::onKnownCloud, this);
     graph_sub_ = nh.subscribe("graph", kQueueSize, &MapServerNodelet::onGraph, this);
     timer_ = nh.createSteadyTimer(ros::WallDuration(config_.publish_period_s),
                                   [this](const ros::SteadyTimerEvent&) { onTimer(); });
@@ -53,6 +56,11 @@ class MapServerNodelet final : public PipelineNodelet {
   void onCloud(const CloudConstPtr& cloud) {
     traceCloud("receive", "keyframe_points", cloud.get());
     clouds_.add(pcl::pcl_ptr(cloud));
+  }
+
+  void onKnownCloud(const CloudConstPtr& cloud) {
+    clouds_.addKnown(pcl::pcl_ptr(cloud));
+    is_asked_for_ = true;  // its graph may have come before
   }
 
   void onGraph(const SituationalGraphConstPtr& msg) { newest_ = msg; }
@@ -132,6 +140,7 @@ class MapServerNodelet final : public PipelineNodelet {
   std::unique_ptr<Worker> worker_;
   std::unique_ptr<Diagnostics> diagnostics_;
   ros::Subscriber cloud_sub_;
+  ros::Subscriber known_sub_;
   ros::Subscriber graph_sub_;
   ros::SteadyTimer timer_;  ///< Last members: no callback outlives the others.
 };

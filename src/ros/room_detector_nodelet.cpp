@@ -45,6 +45,8 @@ class RoomDetectorNodelet final : public PipelineNodelet {
     rooms_pub_ = nh.advertise<Rooms>("rooms", kQueueSize);
     worker_ = std::make_unique<Worker>([this](const auto& msg) { detect(*msg); });
     cloud_sub_ = nh.subscribe("keyframe_points", kQueueSize, &RoomDetectorNodelet::onCloud, this);
+    constexpr std::uint32_t kAll = 0;
+    known_sub_ = nh.subscribe("known_points", kAll, &RoomDetectorNodelet::onKnownCloud, this);
     graph_sub_ = nh.subscribe("graph", kQueueSize, &RoomDetectorNodelet::onGraph, this);
   }
 
@@ -52,6 +54,8 @@ class RoomDetectorNodelet final : public PipelineNodelet {
     traceCloud("receive", "keyframe_points", cloud.get());
     clouds_.add(pcl::pcl_ptr(cloud));
   }
+
+  void onKnownCloud(const CloudConstPtr& cloud) { clouds_.addKnown(pcl::pcl_ptr(cloud)); }
 
   void onGraph(const SituationalGraphConstPtr& msg) {
     if (news_.isNew(*msg)) worker_->put(msg);
@@ -124,6 +128,7 @@ class RoomDetectorNodelet final : public PipelineNodelet {
   std::unique_ptr<Worker> worker_;
   std::unique_ptr<Diagnostics> diagnostics_;
   ros::Subscriber cloud_sub_;
+  ros::Subscriber known_sub_;
   ros::Subscriber graph_sub_;  ///< Last members: no callback outlives the others.
 };
 

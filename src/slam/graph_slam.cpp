@@ -299,6 +299,12 @@ void GraphSlam::archive(Archive& a) {
   a("reunion_tried_at_m", state_->reunion_tried_at_m);
   a("stages", *state_->stages);
   a("loop_storey", state_->loop_storey);
+  std::string mode = state_->config.hierarchy.mode;
+  a("mode", mode);
+  if constexpr (Archive::kReads) {
+    // of another mode: what was dropped comes back, as where the mode is switched
+    if (mode != state_->config.hierarchy.mode) state_->stages->restore(&state_->graph);
+  }
 }
 
 template void GraphSlam::archive(ArchiveWriter&);

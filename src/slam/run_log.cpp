@@ -35,7 +35,7 @@ RunRecord RunLog::record(const GraphSnapshotConstPtr& graph) const {
   run.odometry = trajectory_.odometry();
   run.optimizations = optimizations_;
   run.scans = scans_;
-  if (!scans_.empty()) run.data_s = scans_.back().stamp_s - scans_.front().stamp_s;
+  run.data_s = trajectory_.duration_s();
   return run;
 }
 

@@ -35,6 +35,16 @@ Pose corrected(const StampedPose& scan, const Keyframes& keyframes, std::size_t 
 
 }  // namespace
 
+double ScanTrajectory::duration_s() const {
+  double duration_s = 0.0;
+  for (std::size_t session = 0; session <= sessions_.size(); ++session) {
+    const std::size_t begin = session == 0 ? 0 : sessions_[session - 1];
+    const std::size_t end = session == sessions_.size() ? odometry_.size() : sessions_[session];
+    if (begin < end) duration_s += odometry_[end - 1].stamp_s - odometry_[begin].stamp_s;
+  }
+  return duration_s;
+}
+
 Trajectory ScanTrajectory::corrected(const GraphSnapshot& graph) const {
   Trajectory trajectory = odometry_;
   for (std::size_t session = 0; session <= sessions_.size(); ++session) {

@@ -22,6 +22,9 @@ class ScanTrajectory {
   /// One line a scan, as the front end alone said: T_odom_base.
   const Trajectory& odometry() const { return odometry_; }
 
+  /// Of all sessions, without the time between them.
+  double duration_s() const;
+
   /// One line a scan, T_map_base: the drift found at the keyframes before and after it, shared out
   /// by time; past the last keyframe that one's.
   Trajectory corrected(const GraphSnapshot& graph) const;
