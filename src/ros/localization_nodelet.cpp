@@ -44,7 +44,7 @@ GraphSnapshotConstPtr savedGraph(const std::string& folder, const SlamConfig& co
 /// Publishes   pose  (geometry_msgs/PoseWithCovarianceStamped)  frames/map, for every scan, while the
 ///                   place is known
 ///             see GraphPublisher, KnownClouds, MapToOdom (while the place is known), DisplayPublisher
-/// Parameters  map                      a folder that dump or sgraphs_offline has written
+/// Parameters  map (private)            a folder that dump or sgraphs_offline has written
 ///             relocation/*, localization/*, and for what is seen while lost those of GraphSlam
 ///             frames/map, frames/odom  FramesConfig
 ///             display/*                DisplayConfig
