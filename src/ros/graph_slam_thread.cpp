@@ -142,12 +142,23 @@ std::future<std::string> GraphSlamThread::load(const std::string& folder) {
     const StateReader state(folder);
     auto loaded = std::make_unique<Session>(config_, session_->number + 1);
     readGraphState(state, &loaded->slam, &loaded->log);
-    loaded->waiting = std::make_unique<WaitingSession>(loaded->slam.snapshot(), config_);
+    const GraphSnapshotConstPtr graph = loaded->slam.snapshot();
+    const GraphSnapshotConstPtr before = session_->slam.snapshot();
+    const bool goes_on = goesOnFrom(*before, *graph);
+    if (goes_on) {
+      loaded->log.append(session_->log);
+    } else {
+      loaded->waiting = std::make_unique<WaitingSession>(graph, config_);
+    }
     const std::string fate = rescue();
     session_ = std::move(loaded);
-    const GraphSnapshotConstPtr graph = session_->slam.snapshot();
     listener_.on_loaded(graph);
     tellGraph();
+    if (goes_on) {
+      for (const Keyframe& keyframe : keyframesAfter(graph->stamp_s, *before)) {
+        addToMap(keyframe, 0.0);
+      }
+    }
     return std::to_string(graph->keyframes.size()) + " keyframes, " +
            std::to_string(graph->walls.size()) + " walls and " +
            std::to_string(graph->rooms.size()) + " rooms; " + fate;

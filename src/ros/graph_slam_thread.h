@@ -54,7 +54,8 @@ class GraphSlamThread {
   /// Their numbers are 0, 1, ...
   void startAgain();
 
-  /// The same with a saved map. What comes after it joins it as soon as its place there is known.
+  /// The same with a saved map. Where it was dumped from what there is now, the run goes on from there
+  /// with all that came since; else what comes joins the map as soon as its place there is known.
   /// @return What there is to say. What StateReader throws comes with the future, and nothing has
   ///         changed then.
   std::future<std::string> load(const std::string& folder);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mrpt_sgraphs/geometry/archive_geometry.h"
 
@@ -17,6 +18,16 @@ void RunLog::addScan(const ScanMotion& scan, const ScanReport& report) {
 
 void RunLog::add(const std::vector<OptimizationSummary>& optimizations) {
   optimizations_.insert(optimizations_.end(), optimizations.begin(), optimizations.end());
+}
+
+void RunLog::append(const RunLog& later) {
+  const double end_s = stamp_s().value_or(-std::numeric_limits<double>::infinity());
+  const Trajectory& odometry = later.trajectory_.odometry();
+  for (std::size_t k = 0; k < odometry.size(); ++k) {
+    if (odometry[k].stamp_s <= end_s) continue;
+    trajectory_.add(odometry[k].stamp_s, odometry[k].T_world_body);
+    scans_.push_back(later.scans_[k]);
+  }
 }
 
 ScanReport* RunLog::report(double stamp_s) {

@@ -9,6 +9,8 @@
 #include "io/temporary_folder.h"
 #include "mrpt_sgraphs/io/exports.h"
 #include "mrpt_sgraphs/io/graph_reader.h"
+#include "mrpt_sgraphs/slam/config_file.h"
+#include "mrpt_sgraphs/slam/graph_state.h"
 #include "mrpt_sgraphs/slam/pipeline.h"
 #include "support/simulated_scans.h"
 
@@ -119,6 +121,38 @@ TEST_P(ResumedRun, IsTheRunThatDidNotStop) {
 INSTANTIATE_TEST_SUITE_P(Modes, ResumedRun, ::testing::Values("baseline", "paper", "condensed"));
 
 using SavedRun = WalkInABuilding;
+
+TEST_F(SavedRun, HasItsParametersAsAFile) {
+  SlamConfig config;
+  config.hierarchy.mode = "paper";
+  config.odometry.registration.range_sigma_m = 1.0 / 90.0;
+  const test::TemporaryFolder folder;
+  Player player(*run_, config);
+  player.playUntil(30);
+  player.dump(folder.file("map"));
+  config.hierarchy.budget_ms = 0.0;  // offline there is none
+  EXPECT_EQ(parameterList(loadConfigFile(folder.file("map/parameters.yaml"))),
+            parameterList(config));
+}
+
+/// What came after a dump is in the graph, as the front end gave it.
+TEST_F(SavedRun, CanBeFollowedByWhatCameSince) {
+  Player player(*run_, SlamConfig{});
+  player.playUntil(run_->scans.size() / 2);
+  const GraphSnapshotConstPtr earlier = player.pipeline().graph();
+  player.playUntil(run_->scans.size() * 2 / 3);
+  const GraphSnapshotConstPtr later = player.pipeline().graph();
+  EXPECT_TRUE(goesOnFrom(*later, *earlier));
+  EXPECT_FALSE(goesOnFrom(*earlier, *later));
+  const std::vector<Keyframe> since = keyframesAfter(earlier->stamp_s, *later);
+  ASSERT_EQ(since.size(), later->keyframes.size() - earlier->keyframes.size());
+  EXPECT_GT(since.front().stamp_s, earlier->stamp_s);
+  EXPECT_EQ(since.back().cloud, later->keyframes.back().cloud);
+  for (const Keyframe& keyframe : since) {
+    EXPECT_GT(keyframe.covariance.diagonal().minCoeff(), 0.0);
+    EXPECT_LT(keyframe.covariance.diagonal().maxCoeff(), 0.01);
+  }
+}
 
 TEST_F(SavedRun, SaysWhereItIsDamaged) {
   const test::TemporaryFolder folder;

@@ -19,6 +19,9 @@ class RunLog {
   void add(const std::vector<OptimizationSummary>& optimizations);
   void beginSession() { trajectory_.beginSession(); }
 
+  /// Takes over the scans of a log that go on where this one ends.
+  void append(const RunLog& later);
+
   /// Of the scan of that stamp, to the microsecond; null if there is none.
   ScanReport* report(double stamp_s);
 
