@@ -9,6 +9,7 @@
 
 #include "mrpt_sgraphs/io/atomic_file.h"
 #include "mrpt_sgraphs/io/exports.h"
+#include "mrpt_sgraphs/io/map_files.h"
 #include "mrpt_sgraphs/mapping/map_cloud.h"
 #include "run_report.h"
 
@@ -81,6 +82,7 @@ void writeRun(const std::string& folder, const RunRecord& run) {
   writeFile(in("map.pcd"), [&](std::ostream& out) {
     writePcd(*mapCloud(*run.graph, run.map_resolution_m), out);
   });
+  writeMapFiles(folder, *run.graph, run.map);
   writeFile(in("optimizations.csv"),
             [&](std::ostream& out) { writeOptimizations(run.optimizations, out); });
   writeFile(in("scans.csv"), [&](std::ostream& out) { writeScans(run.scans, out); });

@@ -142,6 +142,7 @@ RunRecord GraphSlamThread::recordNow() {
 
   RunRecord record = session_->log.record(session_->slam.snapshot());
   record.parameters = parameterList(config_);
+  record.map = config_.map;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - session_->started;
   record.wall_s = wall.count();
   return record;

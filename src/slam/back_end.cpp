@@ -49,6 +49,7 @@ RunRecord BackEnd::record() {
   log_.add(graph_slam_.finish());
   RunRecord run = log_.record(graph_slam_.snapshot());
   run.parameters = parameterList(config_);
+  run.map = config_.map;
   return run;
 }
 

@@ -8,6 +8,7 @@
 
 #include "mrpt_sgraphs/graph/snapshot.h"
 #include "mrpt_sgraphs/io/tum.h"
+#include "mrpt_sgraphs/mapping/map_config.h"
 #include "mrpt_sgraphs/solver/optimization_summary.h"
 
 namespace mrpt_sgraphs {
@@ -39,6 +40,7 @@ struct RunRecord {
   double data_s = 0.0;                            ///< Time that the data covers.
   double wall_s = 0.0;                            ///< Time that the run took.
   double map_resolution_m = 0.05;
+  MapConfig map;  ///< Of the OctoMap and the grids.
 };
 
 /// Makes a folder where it is missing and tries whether files can be made in it.
@@ -46,8 +48,9 @@ struct RunRecord {
 void requireWritableFolder(const std::string& folder);
 
 /// Writes a run into a folder, which is made where it is missing: trajectory.tum, odometry.tum,
-/// keyframes.tum, graph.json, graph.g2o, map.pcd, optimizations.csv, scans.csv, report.json. Each
-/// file is written under a temporary name and renamed, so that a file is the old one or the new one.
+/// keyframes.tum, graph.json, graph.g2o, map.pcd, map.bt, floor_<id>.pgm and .yaml,
+/// optimizations.csv, scans.csv, report.json. Each file is written under a temporary name and
+/// renamed, so that a file is the old one or the new one.
 /// @throws std::runtime_error naming the file and the reason.
 void writeRun(const std::string& folder, const RunRecord& run);
 
