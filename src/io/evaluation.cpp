@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "mrpt_sgraphs/io/graph_reader.h"
+#include "mrpt_sgraphs/io/map_files.h"
 #include "mrpt_sgraphs/io/pcd_reader.h"
 
 namespace mrpt_sgraphs {
@@ -64,6 +65,29 @@ void evaluateLayers(const Truth& truth, const GraphSnapshot& graph, const Trajec
   if (has_sides) result->walls = evaluateWalls(building.walls, listOf(graph.walls), T_truth_map);
 }
 
+/// The grids of a graph's floors.
+void evaluateGrids(const Truth& truth, const GraphSnapshot& graph, const fs::path& folder,
+                   RunEvaluation* result) {
+  constexpr double kHeight_m = 2.0;  // that a grid looks at, or less
+  for (const FloorNode& floor : graph.floors) {
+    const fs::path file = folder / ("floor_" + std::to_string(floor.id.value) + ".yaml");
+    if (!fs::exists(file) || truth.building.surfaces.empty()) continue;
+    const FloorGrid grid = readGrid(file.string());
+    const Plane& ground = floor.ground_map;
+    std::vector<Eigen::Vector3f> feet_map;
+    grid.cells.forEach([&](Cell cell) {
+      if (grid.cells[cell] != FloorGrid::kOccupied) return;
+      const Eigen::Vector2d at(grid.cell_m * (cell.column + 0.5), grid.cell_m * (cell.row + 0.5));
+      const double z =
+          (ground.distance - ground.normal.head<2>().dot(at)) / ground.normal.z();
+      feet_map.push_back(Eigen::Vector3d(at.x(), at.y(), z).cast<float>());
+    });
+    result->grids.emplace(
+        floor.id.value, evaluateColumns(truth.building.surfaces, feet_map, kHeight_m,
+                                        result->trajectory.T_truth_run));
+  }
+}
+
 void evaluateGraph(const Truth& truth, const fs::path& folder, double max_dt_s,
                    RunEvaluation* result) {
   const fs::path file = folder / "graph.json";
@@ -73,6 +97,7 @@ void evaluateGraph(const Truth& truth, const fs::path& folder, double max_dt_s,
   result->surface_residuals = surfaceResiduals(graph);
   const Trajectory run = readTum((folder / "trajectory.tum").string());
   naming(file, [&] { evaluateLayers(truth, *graph.snapshot(), run, max_dt_s, result); });
+  evaluateGrids(truth, *graph.snapshot(), folder, result);
 }
 
 }  // namespace
@@ -104,6 +129,11 @@ RunEvaluation evaluateRun(const Truth& truth, const std::string& run, double max
   if (fs::exists(map) && !truth.building.surfaces.empty()) {
     result.map =
         evaluateMap(truth.building.surfaces, readPcd(map.string()), result.trajectory.T_truth_run);
+  }
+  const fs::path octomap = folder / "map.bt";
+  if (fs::exists(octomap) && !truth.building.surfaces.empty()) {
+    result.octomap = evaluateMap(truth.building.surfaces, readOccupiedCells(octomap.string()),
+                                 result.trajectory.T_truth_run);
   }
   if (fs::exists(folder / "graph.json")) evaluateGraph(truth, folder, max_dt_s, &result);
   const fs::path optimizations = folder / "optimizations.csv";

@@ -45,7 +45,14 @@ Json toJson(const MapError& e) {
   return {{"points", e.points},
           {"points_used", e.points_used},
           {"median_m", e.median_m},
-          {"p90_m", e.p90_m}};
+          {"p90_m", e.p90_m},
+          {"far_share", e.far_share}};
+}
+
+Json toJson(const std::map<uint64_t, MapError>& grids) {
+  Json by_floor = Json::object();
+  for (const auto& [floor, error] : grids) by_floor[std::to_string(floor)] = toJson(error);
+  return by_floor;
 }
 
 Json toJson(const TimeStatistics& t) {
@@ -146,6 +153,8 @@ std::string evaluationJson(const Truth& truth, const std::vector<RunEvaluation>&
                     {"trajectory", toJson(run.trajectory)},
                     {"odometry", toJson(run.odometry)},
                     {"map", toJson(run.map)},
+                    {"octomap", toJson(run.octomap)},
+                    {"grids", toJson(run.grids)},
                     {"walls", toJson(run.walls)},
                     {"rooms", toJson(run.rooms)},
                     {"floors", toJson(run.floors)},

@@ -84,13 +84,22 @@ std::string relativeTable(const std::vector<RunEvaluation>& runs) {
 }
 
 std::string mapTable(const std::vector<RunEvaluation>& runs) {
-  std::vector<Row> rows{{"run", "points", "median m", "90 % m"}};
+  std::vector<Row> rows{{"run", "of", "points", "median m", "90 % m", "far %"}};
+  const auto addRow = [&rows](const std::string& run, const std::string& of, const MapError& e) {
+    rows.push_back({run, of, std::to_string(e.points), text(e.median_m, kLengthDigits),
+                    text(e.p90_m, kLengthDigits), text(100.0 * e.far_share, 2)});
+  };
   for (const RunEvaluation& run : runs) {
-    if (!run.map) continue;
-    rows.push_back({run.name, std::to_string(run.map->points),
-                    text(run.map->median_m, kLengthDigits), text(run.map->p90_m, kLengthDigits)});
+    if (run.map) addRow(run.name, "map.pcd", *run.map);
+    if (run.octomap) addRow(run.name, "map.bt", *run.octomap);
+    for (const auto& [floor, error] : run.grids) {
+      addRow(run.name, "floor_" + std::to_string(floor), error);
+    }
   }
-  return layOut("Distance of the map's points to the nearest wall, floor or ceiling", rows, 1);
+  return layOut(
+      "Distance of the map's points, and of the occupied cells of the OctoMap and the grids, to the\n"
+      "nearest wall, floor or ceiling; the share that is farther than " + text(kFar_m, 2) + " m",
+      rows, 2);
 }
 
 std::string count(bool known, std::size_t number) { return known ? std::to_string(number) : "-"; }

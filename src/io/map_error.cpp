@@ -51,6 +51,23 @@ double distanceToNearest(const std::vector<FlatSurface>& surfaces, const Eigen::
   return nearest_m;
 }
 
+/// @param distance  Of a point of the map [m].
+template <typename Distance>
+MapError errorOf(const std::vector<FlatSurface>& surfaces,
+                 const std::vector<Eigen::Vector3f>& points_map, const Distance& distance) {
+  if (surfaces.empty()) throw std::invalid_argument("there is no surface to measure from");
+  const std::size_t stride = points_map.size() / kMaxMapPoints + 1;
+  std::vector<double> distances_m;
+  for (std::size_t k = 0; k < points_map.size(); k += stride) {
+    distances_m.push_back(distance(points_map[k]));
+  }
+  const auto far = std::count_if(distances_m.begin(), distances_m.end(),
+                                 [](double distance_m) { return distance_m > kFar_m; });
+  return {points_map.size(), distances_m.size(), quantile(distances_m, 0.5),
+          quantile(distances_m, 0.9),
+          static_cast<double>(far) / static_cast<double>(distances_m.size())};
+}
+
 }  // namespace
 
 FlatSurface::FlatSurface(const Outline3& outline, const std::vector<Outline3>& holes) {
@@ -105,15 +122,23 @@ double FlatSurface::distance(const Eigen::Vector3d& point) const {
 
 MapError evaluateMap(const std::vector<FlatSurface>& surfaces,
                      const std::vector<Eigen::Vector3f>& points_map, const Pose& T_truth_map) {
-  if (surfaces.empty()) throw std::invalid_argument("there is no surface to measure from");
-  const std::size_t stride = points_map.size() / kMaxMapPoints + 1;
-  std::vector<double> distances_m;
-  for (std::size_t k = 0; k < points_map.size(); k += stride) {
-    const Eigen::Vector3d point_truth = T_truth_map * points_map[k].cast<double>();
-    distances_m.push_back(distanceToNearest(surfaces, point_truth));
-  }
-  return {points_map.size(), distances_m.size(), quantile(distances_m, 0.5),
-          quantile(distances_m, 0.9)};
+  return errorOf(surfaces, points_map, [&](const Eigen::Vector3f& point_map) {
+    return distanceToNearest(surfaces, T_truth_map * point_map.cast<double>());
+  });
+}
+
+MapError evaluateColumns(const std::vector<FlatSurface>& surfaces,
+                         const std::vector<Eigen::Vector3f>& feet_map, double height_m,
+                         const Pose& T_truth_map) {
+  constexpr double kStep_m = 0.2;
+  return errorOf(surfaces, feet_map, [&](const Eigen::Vector3f& foot_map) {
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (double z = kStep_m; z < height_m; z += kStep_m) {  // the ground itself is everywhere
+      const Eigen::Vector3d point_map = foot_map.cast<double>() + Eigen::Vector3d(0.0, 0.0, z);
+      nearest_m = std::min(nearest_m, distanceToNearest(surfaces, T_truth_map * point_map));
+    }
+    return nearest_m;
+  });
 }
 
 }  // namespace mrpt_sgraphs

@@ -123,8 +123,8 @@ void writeManifest(const fs::path& folder) {
 bool isOfMap(const fs::path& relative) {
   static const std::set<std::string> kFolders{"clouds", "state"};
   static const std::set<std::string> kFiles{
-      "graph.geojson",  "graph.g2o",     "graph.graphml",     "graph.json",  "keyframes.tum",
-      "manifest.json",  "map.bt",        "map.pcd",           "odometry.tum", "optimizations.csv",
+      "graph.g2o",      "graph.graphml",     "graph.json",  "keyframes.tum",
+      "manifest.json",  "map.bt",       "map.pcd",           "odometry.tum", "optimizations.csv",
       "parameters.yaml", "report.json",  "rooms.geojson",     "scans.csv",    "trajectory.tum"};
   if (relative.begin() == relative.end()) return false;
   const bool in_folder = relative.has_parent_path();

@@ -18,6 +18,7 @@
 #include "mrpt_sgraphs/io/folder_version.h"
 #include "mrpt_sgraphs/io/geojson.h"
 #include "mrpt_sgraphs/io/graphml.h"
+#include "mrpt_sgraphs/io/map_files.h"
 #include "mrpt_sgraphs/io/state_files.h"
 #include "mrpt_sgraphs/mapping/map_cloud.h"
 #include "run_report.h"
@@ -107,6 +108,7 @@ void writeFiles(const std::filesystem::path& folder, const RunRecord& run) {
   writeFile(in("map.pcd"), [&](std::ostream& out) {
     writePcd(*mapCloud(*run.graph, run.map_resolution_m), out);
   });
+  writeMapFiles(folder, *run.graph, run.map);
   writeFile(in("optimizations.csv"),
             [&](std::ostream& out) { writeOptimizations(run.optimizations, out); });
   writeFile(in("scans.csv"), [&](std::ostream& out) { writeScans(run.scans, out); });

@@ -222,6 +222,7 @@ void GraphSlamThread::finish() {
 RunRecord GraphSlamThread::recordNow() {
   RunRecord record = session_->log.record(session_->slam.snapshot());
   record.parameters = parameterList(config_);
+  record.map = config_.map;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - session_->started;
   record.wall_s = wall.count();
   return record;

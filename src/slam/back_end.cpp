@@ -103,6 +103,7 @@ RunRecord BackEnd::record() {
   RunRecord run =
       localized_ != nullptr ? localized_->record() : log_.record(graph_slam_.snapshot());
   run.parameters = parameterList(config_);
+  run.map = config_.map;
   if (run.localization) return run;
   StateWriter state(run.graph);
   writeState(&state);

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A walk through two rooms and a corridor, played through the nodelets: OctoMap, grid and points
-show it, for who listens and only when there is something new."""
+"""Keyframes in a room of known size, and a graph that places them: the maps show the room for who
+listens, follow the graph, and are sent only when there is something new."""
 
 import math
 import struct
@@ -10,147 +10,239 @@ import sys
 import time
 import unittest
 
-import rosbag
 import rospy
-from nav_msgs.msg import OccupancyGrid, Path
-from sensor_msgs.msg import PointCloud2
+from geometry_msgs.msg import Pose
+from nav_msgs.msg import OccupancyGrid
+from sensor_msgs.msg import PointCloud2, PointField
 
-from mrpt_sgraphs.msg import SituationalGraph
+from mrpt_sgraphs.msg import GraphFloor, GraphKeyframe, SituationalGraph
 from ros_support import wait_for
 
 OCTOMAP_MD5 = '9a45536b45c5e409cd49f04bb2d9999f'
-SETTLED_S = 5.0  # more than two periods of the map server
+LOW, HIGH = (0.0, 0.0, 0.0), (6.0, 4.0, 2.6)  # of the room [m]
+CELL = 0.1
+PLACES = [(1.0, 1.0, 0.7), (2.0, 2.0, 0.7), (3.0, 2.5, 0.7), (4.5, 2.0, 0.7)]
+STILL_S = 2.0  # several periods of the map server
+POINT = struct.Struct('<fffffHxx')
+
+
+def range_in_room(place, direction):
+    ranges = [((HIGH[k] if direction[k] > 0 else LOW[k]) - place[k]) / direction[k]
+              for k in range(3) if abs(direction[k]) > 1e-9]
+    return min(ranges)
+
+
+def cloud_from(place, stamp):
+    """What a lidar sees of the room; its axes are the room's."""
+    points = []
+    for elevation in [math.radians(2.0 * k) for k in range(-12, 13)]:
+        for azimuth in [math.radians(0.8 * k) for k in range(450)]:
+            direction = (math.cos(elevation) * math.cos(azimuth),
+                         math.cos(elevation) * math.sin(azimuth), math.sin(elevation))
+            reach = range_in_room(place, direction)
+            points.append(POINT.pack(*[reach * d for d in direction], 1.0, 0.0, 0))
+    cloud = PointCloud2()
+    cloud.header.stamp = stamp
+    cloud.header.frame_id = 'base_link'
+    cloud.height, cloud.width = 1, len(points)
+    cloud.point_step = POINT.size
+    cloud.row_step = POINT.size * len(points)
+    cloud.is_dense = True
+    names = ['x', 'y', 'z', 'intensity', 'time', 'ring']
+    cloud.fields = [PointField(name, 4 * k, PointField.UINT16 if name == 'ring'
+                               else PointField.FLOAT32, 1) for k, name in enumerate(names)]
+    cloud.data = b''.join(points)
+    return cloud
+
+
+def pose_at(place):
+    pose = Pose()
+    pose.position.x, pose.position.y, pose.position.z = place
+    pose.orientation.w = 1.0
+    return pose
+
+
+class Robot:
+    """Sends what the pipeline would."""
+
+    def __init__(self):
+        self.clouds = rospy.Publisher('/maps/keyframe_points', PointCloud2, queue_size=50)
+        self.graphs = rospy.Publisher('/maps/graph', SituationalGraph, queue_size=1)
+        self.graph = SituationalGraph()
+        self.graph.header.frame_id = 'map'
+        floor = GraphFloor(id=7, name='ground')
+        floor.normal.z = 1.0
+        self.graph.floors = [floor]
+        wait_for(lambda: self.clouds.get_num_connections() and self.graphs.get_num_connections(),
+                 10.0)
+
+    def see(self, place):
+        number = len(self.graph.keyframes)
+        stamp = rospy.Time(1000 + self.graph.session * 100 + number)
+        self.clouds.publish(cloud_from(place, stamp))
+        time.sleep(0.1)  # two topics have no order
+        keyframe = GraphKeyframe(id=number, stamp=stamp, pose=pose_at(place),
+                                 odom_pose=pose_at(place), floor=7, room=GraphKeyframe.NONE,
+                                 representative=number)
+        self.graph.keyframes.append(keyframe)
+        self.graph.header.stamp = stamp
+
+    def tell(self):
+        self.graphs.publish(self.graph)
+
+
+class Listener:
+    """All that comes on a topic while it is there."""
+
+    def __init__(self, name, kind):
+        self.messages = []
+        self.subscriber = rospy.Subscriber('/maps/' + name, kind, self.messages.append)
+
+    def newest(self, where=lambda message: True):
+        wait_for(lambda: self.messages and where(self.messages[-1]), 10.0)
+        return self.messages[-1]
+
+    def leave(self):
+        self.subscriber.unregister()
 
 
 def points_of(cloud):
-    offsets = {field.name: field.offset for field in cloud.fields}
     layout = struct.Struct('<fff')
-    assert [offsets[name] for name in 'xyz'] == [0, 4, 8]
     return [layout.unpack_from(cloud.data, k * cloud.point_step)
             for k in range(cloud.width * cloud.height)]
 
 
+def off_the_room(point):
+    """How far a point is from the nearest of the room's surfaces."""
+    return min(min(abs(point[k] - LOW[k]), abs(point[k] - HIGH[k])) for k in range(3))
+
+
+def farthest(cloud):
+    return max(off_the_room(point) for point in points_of(cloud))
+
+
 def value_at(grid, x, y):
     origin = grid.info.origin.position
-    column = math.floor((x - origin.x) / grid.info.resolution)
-    row = math.floor((y - origin.y) / grid.info.resolution)
+    column = math.floor((x - origin.x) / grid.info.resolution + 1e-6)
+    row = math.floor((y - origin.y) / grid.info.resolution + 1e-6)
     if not (0 <= column < grid.info.width and 0 <= row < grid.info.height):
         return -1
     return grid.data[row * grid.info.width + column]
 
 
-def distance(plane, point):
-    """From the plane, to the side that its normal points to."""
-    normal = plane.normal
-    return normal.x * point[0] + normal.y * point[1] + normal.z * point[2] - plane.distance
-
-
-def middle_of(points):
-    count = float(len(points))
-    return [sum(getattr(p, axis) for p in points) / count for axis in 'xyz']
-
-
 class MapsTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        with rosbag.Bag(rospy.get_param('~bag')) as bag:
-            scans = bag.get_message_count('/points')
-        graphs, paths = [], []
-        cls.subscribers = [
-            rospy.Subscriber('/sgraphs/graph', SituationalGraph, graphs.append),
-            rospy.Subscriber('/sgraphs/trajectory', Path, paths.append)]
-        wait_for(lambda: paths and len(paths[-1].poses) >= scans, timeout_s=50.0)
-        time.sleep(SETTLED_S)  # rooms and floors of the last keyframe
-        cls.graph = graphs[-1]
-        cls.kinds = {'octomap': rospy.AnyMsg,  # its Python type is not packaged everywhere
-                     'occupied': PointCloud2, 'map_points': PointCloud2}
-        for floor in cls.graph.floors:
-            cls.kinds['grid/floor_%d' % floor.id] = OccupancyGrid
-        # nobody listened while the graph grew
-        cls.first = cls.listen()
-        cls.second = cls.listen()
-        cls.newest = {name: messages[-1] for name, messages in cls.first.items() if messages}
+        cls.robot = Robot()
+        for place in PLACES:
+            cls.robot.see(place)
+        cls.robot.tell()
 
-    @classmethod
-    def listen(cls):
-        """What comes on each topic to who listens for a while, now that all is still."""
-        received = {name: [] for name in cls.kinds}
-        subscribers = [rospy.Subscriber('/sgraphs/' + name, kind, received[name].append)
-                       for name, kind in cls.kinds.items()]
-        wait_for(lambda: all(received.values()), 15.0)
-        time.sleep(SETTLED_S)
-        for subscriber in subscribers:
-            subscriber.unregister()
-        return received
+    def test_1_points_and_cells_are_the_room(self):
+        for name in ('occupied', 'map_points'):
+            listener = Listener(name, PointCloud2)
+            cloud = listener.newest()
+            self.assertEqual(cloud.header.frame_id, 'map')
+            self.assertEqual(cloud.header.stamp, self.robot.graph.header.stamp)
+            self.assertGreater(cloud.width, 3000)
+            self.assertLess(farthest(cloud), 0.06)
+            listener.leave()
 
-    def wall_middles(self):
-        """Of large walls, in the middle of what was seen of them; there may be a door at it."""
-        for wall in self.graph.walls:
-            p = wall.polygon
-            if len(p) >= 3 and max(math.hypot(a.x - p[0].x, a.y - p[0].y) for a in p) > 2.0:
-                yield middle_of(p)
-
-    def test_the_grid_is_free_where_the_robot_was_and_occupied_where_walls_are(self):
-        self.assertEqual(len(self.graph.floors), 1)
-        grid = self.newest['grid/floor_%d' % self.graph.floors[0].id]
-        self.assertEqual(grid.header.frame_id, self.graph.header.frame_id)
+    def test_2_the_grid_is_fit_for_planners(self):
+        listener = Listener('grid/floor_7', OccupancyGrid)
+        grid = listener.newest()
+        listener.leave()
+        self.assertEqual(grid.header.frame_id, 'map')
+        self.assertAlmostEqual(grid.info.resolution, CELL, places=6)
         self.assertEqual(grid.info.origin.orientation.w, 1.0)
         self.assertEqual(len(grid.data), grid.info.width * grid.info.height)
         self.assertEqual(set(grid.data), {-1, 0, 100})
-        for keyframe in self.graph.keyframes:
-            position = keyframe.pose.position
-            self.assertEqual(value_at(grid, position.x, position.y), 0, position)
-        for room in self.graph.rooms:
-            x, y, _ = middle_of(room.polygon)
-            self.assertEqual(value_at(grid, x, y), 0, room.name)
-        hits, walls = 0, 0
-        for x, y, _ in self.wall_middles():
-            around = [value_at(grid, x + 0.1 * i, y + 0.1 * j)
-                      for i in (-1, 0, 1) for j in (-1, 0, 1)]
-            hits += 100 in around
-            walls += 1
-        self.assertGreater(walls, 4)
-        self.assertGreaterEqual(hits, 0.75 * walls)
+        for column in range(3, 57):
+            for row in range(3, 37):
+                self.assertEqual(value_at(grid, CELL * (column + 0.5), CELL * (row + 0.5)), 0,
+                                 (column, row))
+        for x, y in ((5.0, 0.0), (5.0, 4.0), (0.0, 3.0), (6.0, 3.0)):
+            beside = [value_at(grid, x + 0.05 * i, y + 0.05 * j) for i in (-1, 1) for j in (-1, 1)]
+            self.assertIn(100, beside, (x, y))
+        self.assertEqual(value_at(grid, 7.0, 2.0), -1)
 
-    def test_occupied_cells_and_points_are_where_walls_are(self):
-        ground = self.graph.floors[0]
-        cells, points = self.newest['occupied'], self.newest['map_points']
-        for message in (cells, points):
-            self.assertEqual(message.header.frame_id, self.graph.header.frame_id)
-            breast_high = [p for p in points_of(message)
-                           if 0.5 < distance(ground, p) < 1.5]
-            self.assertGreater(len(breast_high), 1000)
-            on_walls = [p for p in breast_high
-                        if min(abs(distance(wall, p)) for wall in self.graph.walls) < 0.15]
-            self.assertGreater(len(on_walls), 0.9 * len(breast_high))
-        centres = points_of(cells)
-        self.assertEqual(len(set(centres)), len(centres))
-        for p in centres[::50]:
-            for v in p:
-                self.assertAlmostEqual(v / 0.1 - math.floor(v / 0.1), 0.5, delta=0.01)
-
-    def test_the_octomap_has_the_official_type(self):
-        message = self.newest['octomap']
+    def test_3_the_octomap_has_the_official_type(self):
+        listener = Listener('octomap', rospy.AnyMsg)  # its Python type is not packaged everywhere
+        message = listener.newest()
+        listener.leave()
         header = message._connection_header
         self.assertEqual(header['type'], 'octomap_msgs/Octomap')
         self.assertEqual(header['md5sum'], OCTOMAP_MD5)
         self.assertEqual(header['latching'], '1')
         self.assertIn(b'OcTree', message._buff)
-        self.assertGreater(len(message._buff), 1000)
 
-    def test_who_comes_late_gets_the_newest(self):
-        for name in self.kinds:
-            self.assertEqual(len(self.first[name]), 1, name)
-        for name in set(self.kinds) - {'octomap'}:
-            self.assertEqual(self.newest[name].header.stamp, self.graph.header.stamp, name)
+    def test_4_what_has_not_changed_is_not_sent_again(self):
+        kinds = {'octomap': rospy.AnyMsg, 'occupied': PointCloud2, 'map_points': PointCloud2,
+                 'grid/floor_7': OccupancyGrid}
+        listeners = {name: Listener(name, kind) for name, kind in kinds.items()}
+        time.sleep(STILL_S)
+        self.robot.tell()  # the same again
+        time.sleep(STILL_S)
+        for name, listener in listeners.items():
+            self.assertEqual(len(listener.messages), 1, name)
+            listener.leave()
 
-    def test_what_has_not_changed_is_not_sent_again(self):
-        for name in self.kinds:
-            self.assertEqual(len(self.second[name]), 1, name)
-            first, second = self.newest[name], self.second[name][0]
-            if name == 'octomap':
-                first, second = first._buff, second._buff
-            self.assertEqual(first, second, name)
+    def test_5_a_loop_closure_leaves_nothing_behind(self):
+        listeners = [Listener(name, PointCloud2) for name in ('occupied', 'map_points')]
+        last = self.robot.graph.keyframes[-1]
+        last.pose = pose_at([place + 0.3 for place in PLACES[-1]])
+        self.robot.tell()
+        for listener in listeners:
+            drifted = listener.newest(lambda cloud: farthest(cloud) > 0.2)
+            self.assertGreater(farthest(drifted), 0.2)
+        last.pose = pose_at(PLACES[-1])
+        self.robot.tell()
+        for listener in listeners:
+            right = listener.newest(lambda cloud: farthest(cloud) < 0.06)
+            self.assertLess(farthest(right), 0.06)
+            listener.leave()
+
+    def test_6_who_comes_late_gets_the_newest(self):
+        """Nobody listened when the last keyframe came."""
+        self.robot.see((5.0, 3.0, 0.7))
+        self.robot.tell()
+        time.sleep(STILL_S)
+        for name in ('occupied', 'map_points'):
+            listener = Listener(name, PointCloud2)
+            stamp = self.robot.graph.header.stamp
+            newest = listener.newest(lambda cloud: cloud.header.stamp == stamp)
+            self.assertEqual(newest.header.stamp, stamp, name)
+            listener.leave()
+
+    def test_7_dropped_keyframes_are_still_in_the_map(self):
+        listener = Listener('occupied', PointCloud2)
+        before = listener.newest()
+        for keyframe in self.robot.graph.keyframes[1:3]:
+            keyframe.marginalized = True
+            keyframe.representative = 0
+        self.robot.see((5.2, 3.1, 0.7))
+        self.robot.tell()
+        stamp = self.robot.graph.header.stamp
+        after = listener.newest(lambda cloud: cloud.header.stamp == stamp)
+        listener.leave()
+        self.assertEqual(after.header.stamp, stamp)
+        self.assertGreater(after.width, 0.95 * before.width)
+        self.assertLess(farthest(after), 0.06)
+
+    def test_8_another_session_begins_with_nothing(self):
+        listener = Listener('map_points', PointCloud2)
+        listener.newest()
+        self.robot.graph.session += 1
+        self.robot.graph.keyframes = []
+        self.robot.see((1.0, 1.0, 0.7))
+        self.robot.tell()
+        stamp = self.robot.graph.header.stamp
+        cloud = listener.newest(lambda message: message.header.stamp == stamp)
+        listener.leave()
+        self.assertEqual(cloud.header.stamp, stamp)
+        one_view = {tuple(math.floor(v / CELL) for v in p)
+                    for p in points_of(cloud_from((1.0, 1.0, 0.7), stamp))}
+        self.assertLess(cloud.width, 1.1 * len(one_view))
 
 
 if __name__ == '__main__':

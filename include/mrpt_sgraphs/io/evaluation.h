@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,7 +36,9 @@ struct RunEvaluation {
   std::string name;  ///< Its path, as given.
   TrajectoryErrors trajectory;
   std::optional<TrajectoryErrors> odometry;
-  std::optional<MapError> map;
+  std::optional<MapError> map;      ///< map.pcd,
+  std::optional<MapError> octomap;  ///< the occupied cells of map.bt,
+  std::map<uint64_t, MapError> grids;  ///< and those of each floor's grid.
   std::optional<WallErrors> walls;    ///< If the truth says to which side its walls look.
   std::optional<RoomErrors> rooms;    ///< If the truth knows of any.
   std::optional<FloorErrors> floors;  ///< If the truth knows of any.

@@ -32,12 +32,17 @@ class FlatSurface {
   Eigen::Vector3d box_max_;
 };
 
+/// Farther from the building than this there is nothing: a point there is of a wall that is drawn
+/// twice, or of what is no part of the building.
+constexpr double kFar_m = 0.15;
+
 /// How far the points of a map lie from the building.
 struct MapError {
   std::size_t points = 0;       ///< In the map.
   std::size_t points_used = 0;  ///< At most kMaxMapPoints of them, evenly picked.
   double median_m = 0.0;
   double p90_m = 0.0;
+  double far_share = 0.0;  ///< Of them that are farther away than kFar_m.
 };
 
 /// What a median and a 90 % distance need is far fewer; it keeps the time of a large map bounded.
@@ -46,5 +51,12 @@ constexpr std::size_t kMaxMapPoints = 200000;
 /// @throws std::invalid_argument if there is no surface.
 MapError evaluateMap(const std::vector<FlatSurface>& surfaces,
                      const std::vector<Eigen::Vector3f>& points_map, const Pose& T_truth_map);
+
+/// The same for the columns of a grid, which are as far as their nearest point.
+/// @param feet_map   On the ground.
+/// @param height_m   Of the columns.
+MapError evaluateColumns(const std::vector<FlatSurface>& surfaces,
+                         const std::vector<Eigen::Vector3f>& feet_map, double height_m,
+                         const Pose& T_truth_map);
 
 }  // namespace mrpt_sgraphs

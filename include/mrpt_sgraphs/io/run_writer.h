@@ -9,6 +9,7 @@
 
 #include "mrpt_sgraphs/graph/snapshot.h"
 #include "mrpt_sgraphs/io/tum.h"
+#include "mrpt_sgraphs/mapping/map_config.h"
 #include "mrpt_sgraphs/solver/optimization_summary.h"
 
 namespace mrpt_sgraphs {
@@ -51,6 +52,7 @@ struct RunRecord {
   double data_s = 0.0;                            ///< Time that the data covers.
   double wall_s = 0.0;                            ///< Time that the run took.
   double map_resolution_m = 0.05;
+  MapConfig map;  ///< Of the OctoMap and the grids.
   /// What is needed to go on, by the files' names; then the keyframes' clouds are written as well.
   std::map<std::string, std::string> state;
 };
@@ -60,8 +62,9 @@ struct RunRecord {
 void requireWritableFolder(const std::string& folder);
 
 /// Writes a run as a FolderVersion: trajectory.tum, odometry.tum, keyframes.tum, graph.json,
-/// graph.g2o, graph.graphml, rooms.geojson, floor_<id>.svg, map.pcd, optimizations.csv, scans.csv,
-/// report.json, parameters.yaml, and its state with the keyframes' clouds. `folder` is then a link to all of it, or to all that was there before.
+/// graph.g2o, graph.graphml, rooms.geojson, map.pcd, map.bt, floor_<id>.svg, .pgm and .yaml,
+/// optimizations.csv, scans.csv, report.json, parameters.yaml, and its state with the keyframes'
+/// clouds. `folder` is then a link to all of it, or to all that was there before.
 /// @throws std::runtime_error naming the file and the reason.
 void writeRun(const std::string& folder, const RunRecord& run);
 
