@@ -88,7 +88,9 @@ TEST_F(GraphMlTest, AFactorOfOneNodeIsALoopAndOneOfMoreAStar) {
   for (const auto* edge : file_.elements("edge")) {
     const std::string source = edge->Attribute("source");
     const std::string target = edge->Attribute("target");
-    if (data(*edge, "type") == "pose_prior") EXPECT_EQ(source, target);
+    if (data(*edge, "type") == "pose_prior") {
+      EXPECT_EQ(source, target);
+    }
     if (data(*edge, "type") != "wall_pair") continue;
     EXPECT_EQ(source, "keyframe_0");
     of_pair.insert(data(*edge, "factor") + " " + target);
