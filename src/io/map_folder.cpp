@@ -123,9 +123,9 @@ void writeManifest(const fs::path& folder) {
 bool isOfMap(const fs::path& relative) {
   static const std::set<std::string> kFolders{"clouds", "state"};
   static const std::set<std::string> kFiles{
-      "graph.g2o",      "graph.graphml",     "graph.json",  "keyframes.tum",
-      "manifest.json",  "map.bt",       "map.pcd",           "odometry.tum", "optimizations.csv",
-      "parameters.yaml", "report.json",  "rooms.geojson",     "scans.csv",    "trajectory.tum"};
+      "graph.g2o",       "graph.graphml", "graph.json",   "keyframes.tum",     "manifest.json",
+      "map.bt",          "map.pcd",       "no_floor.svg", "odometry.tum",      "optimizations.csv",
+      "parameters.yaml", "report.json",   "rooms.geojson", "scans.csv",        "trajectory.tum"};
   if (relative.begin() == relative.end()) return false;
   const bool in_folder = relative.has_parent_path();
   if (in_folder) return kFolders.count(relative.begin()->string()) != 0;
