@@ -38,7 +38,7 @@ class PlanSearch {
   std::vector<PlanMatch> find(const std::vector<Eigen::Vector2d>& surfaces, double min_score,
                               double spread, const PlanWindow& window) const;
 
-  /// The best score near a match, to a fraction of a cell.
+  /// The best score near a match. Cells are all that plans know: a scan knows the place better.
   PlanMatch refined(const std::vector<Eigen::Vector2d>& surfaces, PlanMatch match) const;
 
   static constexpr double kDistinct_m = 1.0;

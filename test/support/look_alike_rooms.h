@@ -11,14 +11,15 @@
 /// A map with rooms that look alike from within, and walks through it.
 namespace mrpt_sgraphs::test {
 
-/// Two offices of one size with their doors at the same place, on a corridor that goes on to the east.
+/// Two offices of one size with their doors at the same place, on a corridor whose ends cannot be seen
+/// from either.
 inline const std::string kLookAlikes = R"(name: look_alikes
 storeys:
   - name: ground
     elevation_m: 0.0
     height_m: 2.8
     rooms:
-      - {name: corridor, kind: corridor, rectangle: [0.0, 0.0, 14.0, 2.0]}
+      - {name: corridor, kind: corridor, rectangle: [-3.0, 0.0, 14.0, 2.0]}
       - {name: west, rectangle: [0.0, 2.2, 4.5, 6.7]}
       - {name: east, rectangle: [4.7, 2.2, 9.2, 6.7]}
     doors:
@@ -48,7 +49,7 @@ inline sim::Building lookAlikes() { return sim::test::buildingFrom(kLookAlikes);
 
 /// Of both offices and all of the corridor.
 inline std::vector<Eigen::Vector2d> roundOfLookAlikes() {
-  return {{1.0, 1.0}, {1.2, 3.0}, {3.0, 4.0}, {2.0, 5.5}, {1.2, 3.0}, {1.2, 1.0}, {5.9, 1.0},
+  return {{-2.0, 1.0}, {1.0, 1.0}, {1.2, 3.0}, {3.0, 4.0}, {2.0, 5.5}, {1.2, 3.0}, {1.2, 1.0}, {5.9, 1.0},
           {5.9, 3.0}, {7.7, 4.0}, {6.7, 5.5}, {5.9, 3.0}, {5.9, 1.0}, {13.0, 1.0}, {6.0, 1.0}};
 }
 /// In the eastern office, not by the door.
@@ -58,6 +59,16 @@ inline std::vector<Eigen::Vector2d> roundOfTheEastOffice() {
 /// From there into the corridor and along it.
 inline std::vector<Eigen::Vector2d> outOfTheEastOffice() {
   return {{8.4, 5.6}, {8.4, 3.4}, {6.8, 4.4}, {5.9, 3.0}, {5.9, 1.0}, {11.0, 1.0}};
+}
+
+/// ... and back, into the western one.
+inline std::vector<Eigen::Vector2d> fromEastToWest() {
+  std::vector<Eigen::Vector2d> way = outOfTheEastOffice();
+  for (const Eigen::Vector2d& corner :
+       {Eigen::Vector2d(1.2, 1.0), Eigen::Vector2d(1.2, 3.0), Eigen::Vector2d(3.0, 4.5)}) {
+    way.push_back(corner);
+  }
+  return way;
 }
 
 /// Keyframes with planes, of a robot that walks along corner points with good odometry.
