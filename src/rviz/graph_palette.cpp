@@ -36,7 +36,7 @@ Eigen::Vector3f GraphPalette::of(NodeId node) const {
     case ColourBy::kLayer:
       return byLayer(node);
     case ColourBy::kRoom:
-      return ofGroup(graph_.room_of, node);
+      return node.layer == Layer::kFloor ? byLayer(node) : ofGroup(graph_.room_of, node);
     case ColourBy::kFloor:
       return ofGroup(graph_.floor_of, node);
     case ColourBy::kAge:

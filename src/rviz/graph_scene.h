@@ -26,6 +26,7 @@ struct SceneOptions {
   bool walls = true;
   bool wall_sightings = true;
   bool wall_pairs = false;
+  bool wall_backs = false;  ///< Show walls also from behind, where they were not seen from.
   bool rooms = true;
   bool room_walls = true;
   bool doorways = true;
@@ -80,6 +81,7 @@ struct AreaSet {
   };
 
   float alpha = 1.0F;
+  bool from_both_sides = false;  ///< Else only from where they are counter-clockwise.
   std::vector<Triangle> triangles = {};
 };
 

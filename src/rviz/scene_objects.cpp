@@ -33,8 +33,8 @@ Ogre::ColourValue pickColour(NodeId node) {
   return rviz::SelectionManager::handleToColor(pickIndex(node));
 }
 
-/// Unlit, in the colours of its vertices, from both sides; also in the second pass of picking.
-Ogre::MaterialPtr makeMaterial(bool translucent) {
+/// Unlit, in the colours of its vertices; also in the second pass of picking.
+Ogre::MaterialPtr makeMaterial(bool translucent, Ogre::CullingMode culling) {
   static int count = 0;
   Ogre::MaterialPtr material = Ogre::MaterialManager::getSingleton().create(
       "mrpt_sgraphs/situational_graph_" + std::to_string(count++),
@@ -43,7 +43,7 @@ Ogre::MaterialPtr makeMaterial(bool translucent) {
   material->getTechnique(0)->setLightingEnabled(false);
   material->createTechnique()->createPass();
   material->getTechnique(1)->setSchemeName("Pick1");
-  material->setCullingMode(Ogre::CULL_NONE);
+  material->setCullingMode(culling);
   material->getTechnique(1)->setLightingEnabled(false);
   if (translucent) {
     material->getTechnique(0)->setSceneBlending(Ogre::SBT_TRANSPARENT_ALPHA);
@@ -132,8 +132,10 @@ SceneObjects::SceneObjects(Ogre::SceneManager* manager, Ogre::SceneNode* parent,
     : manager_(manager),
       node_(parent->createChildSceneNode()),
       handle_(handle),
-      opaque_(makeMaterial(false)),
-      translucent_(makeMaterial(true)) {}
+      opaque_(makeMaterial(false, Ogre::CULL_NONE)),
+      translucent_(makeMaterial(true, Ogre::CULL_NONE)),
+      opaque_front_(makeMaterial(false, Ogre::CULL_CLOCKWISE)),
+      translucent_front_(makeMaterial(true, Ogre::CULL_CLOCKWISE)) {}
 
 SceneObjects::~SceneObjects() {
   show(GraphScene());
@@ -144,8 +146,9 @@ SceneObjects::~SceneObjects() {
   }
   for (const auto& points : points_) node_->detachObject(points.get());
   manager_->destroySceneNode(node_);
-  Ogre::MaterialManager::getSingleton().remove(opaque_->getHandle());
-  Ogre::MaterialManager::getSingleton().remove(translucent_->getHandle());
+  for (const auto& material : {opaque_, translucent_, opaque_front_, translucent_front_}) {
+    Ogre::MaterialManager::getSingleton().remove(material->getHandle());
+  }
 }
 
 Ogre::ManualObject* SceneObjects::makeObject() {
@@ -164,8 +167,7 @@ void SceneObjects::makeObjects() {
   }
   while (lines_.size() < scene_.lines.size()) lines_.push_back(makeObject());
   while (areas_.size() < scene_.areas.size()) {
-    areas_.push_back({makeObject(), makeObject()});
-    areas_.back().picked->setVisible(false);
+    areas_.push_back({makeObject(), manager_->createManualObject()});
   }
 }
 
@@ -184,8 +186,17 @@ void SceneObjects::show(GraphScene scene) {
 void SceneObjects::colourByNode(bool by_node) {
   showPoints(by_node);
   for (const Area& area : areas_) {
-    area.seen->setVisible(!by_node);
-    area.picked->setVisible(by_node);
+    node_->detachObject(by_node ? area.seen : area.picked);
+    node_->attachObject(by_node ? area.picked : area.seen);
+  }
+}
+
+void SceneObjects::lookFrom(const Eye& eye) {
+  constexpr double kReadable = 0.009;  // height over distance: seven pixels of a usual window
+  for (std::size_t k = 0; k < label_nodes_.size(); ++k) {
+    const Label& label = scene_.labels[k];
+    const double distance_m = eye.distanceTo(label.at.cast<double>());
+    label_nodes_[k]->setVisible(static_cast<double>(label.height_m) > kReadable * distance_m);
   }
 }
 
@@ -217,8 +228,10 @@ void SceneObjects::showLines() {
 void SceneObjects::showAreas() {
   for (std::size_t k = 0; k < areas_.size(); ++k) {
     const AreaSet& set = scene_.areas[k];
-    fillArea(set, false, set.alpha < 1.0F ? translucent_ : opaque_, areas_[k].seen);
-    fillArea(set, true, opaque_, areas_[k].picked);
+    const Ogre::MaterialPtr& opaque = set.from_both_sides ? opaque_ : opaque_front_;
+    const Ogre::MaterialPtr& translucent = set.from_both_sides ? translucent_ : translucent_front_;
+    fillArea(set, false, set.alpha < 1.0F ? translucent : opaque, areas_[k].seen);
+    fillArea(set, true, opaque, areas_[k].picked);
     rviz::SelectionManager::setPickHandle(handle_, areas_[k].seen);
     rviz::SelectionManager::setPickHandle(handle_, areas_[k].picked);
   }

@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "far_thinning.h"
 #include "graph_scene.h"
 
 namespace rviz {
@@ -38,13 +39,17 @@ class SceneObjects {
 
   void show(GraphScene scene);
 
+  /// Leaves out the labels that are too small to be read from there.
+  void lookFrom(const Eye& eye);
+
   /// Each node in the colour of its pickIndex, for rviz's second look at what was clicked on.
   void colourByNode(bool by_node);
 
  private:
   struct Area {
     Ogre::ManualObject* seen;
-    Ogre::ManualObject* picked;  ///< The same in the colours of its nodes.
+    Ogre::ManualObject* picked;  ///< The same in the colours of its nodes. Who shows a branch of
+                                 ///< the scene shows all that is attached to it: this one is not.
   };
 
   void makeObjects();
@@ -59,6 +64,8 @@ class SceneObjects {
   const rviz::CollObjectHandle handle_;
   Ogre::MaterialPtr opaque_;
   Ogre::MaterialPtr translucent_;
+  Ogre::MaterialPtr opaque_front_;  ///< Nothing is seen of it from behind, as of the next one.
+  Ogre::MaterialPtr translucent_front_;
   GraphScene scene_;
   std::vector<std::unique_ptr<rviz::PointCloud>> points_;
   std::vector<Ogre::ManualObject*> lines_;  ///< Those of the manager.

@@ -129,6 +129,8 @@ void SituationalGraphDisplay::addLayers() {
       addNumber("Alpha", "How opaque walls are.", defaults.wall_alpha, 1.0, walls);
   addSwitch("Sightings", "From keyframes to the walls that they see.", &Options::wall_sightings,
             walls);
+  addSwitch("Backs", "Walls also from behind, where they were not seen from.", &Options::wall_backs,
+            walls);
   addSwitch("Two Faces", "Between the two sides of a wall.", &Options::wall_pairs, walls);
 
   auto* const rooms = addSwitch("Rooms", "The third layer.", &Options::rooms, this);
@@ -273,10 +275,11 @@ void SituationalGraphDisplay::update(float wall_dt_s, float /*ros_dt_s*/) {
   if (!placeInFixedFrame()) return;
   const std::optional<Eye> eye = this->eye();
   if (!eye) return;
-  const bool is_moved = drawn_from_ && keyframe_scene_->dependsOnTheEye() &&
-                        since_drawn_s_ > kRedrawEvery_s &&
+  const bool is_moved = drawn_from_ && since_drawn_s_ > kRedrawEvery_s &&
                         !isNear(*eye, *drawn_from_, drawing_->options.near_m);
-  if (!drawn_from_ || is_moved) drawKeyframes(*eye);
+  if (!drawn_from_ || (is_moved && keyframe_scene_->dependsOnTheEye())) drawKeyframes(*eye);
+  structure_objects_->lookFrom(*eye);
+  keyframe_objects_->lookFrom(*eye);
 }
 
 /// All but the keyframes, which are drawn when it is known from where they are looked at.

@@ -9,7 +9,6 @@ namespace mrpt_sgraphs {
 namespace {
 
 constexpr float kWallNode_m = 0.2F;
-constexpr float kWallOutline_m = 0.03F;
 constexpr float kRoomNode_m = 1.0F;
 constexpr float kRoomOutline_m = 0.06F;
 constexpr float kRoomEdge_m = 0.04F;
@@ -29,7 +28,7 @@ struct Sets {
   PointSet floors{PointSet::Shape::kSphere, kFloorNode_m};
   AreaSet walls;
   AreaSet grounds;
-  LineSet wall_outlines{kWallOutline_m};
+  LineSet wall_outlines;
   LineSet wall_pairs{kPairEdge_m};
   LineSet room_outlines{kRoomOutline_m};
   LineSet room_walls{kRoomEdge_m, 0.7F};
@@ -45,6 +44,7 @@ class StructureScene {
  public:
   explicit StructureScene(const GraphDrawing& drawing) : drawing_(drawing) {
     sets_.walls.alpha = drawing.options.wall_alpha;
+    sets_.walls.from_both_sides = drawing.options.wall_backs;
     sets_.grounds.alpha = drawing.options.room_alpha;
     if (drawing.options.walls) addWalls();
     if (drawing.options.rooms) addRooms();
