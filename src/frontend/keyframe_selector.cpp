@@ -25,9 +25,8 @@ Matrix6 KeyframeSelector::withFloor(const Matrix6& covariance) const {
   return covariance + Matrix6(variance.asDiagonal());
 }
 
-std::optional<Keyframe> KeyframeSelector::process(const ScanMotion& scan, const Cloud& deskewed,
-                                                  bool registered) {
-  if (!last_keyframe_ && !registered) return std::nullopt;
+std::optional<Keyframe> KeyframeSelector::process(const ScanMotion& scan, const Cloud& deskewed) {
+  if (!last_keyframe_ && !isOfOneMoment(deskewed)) return std::nullopt;
   if (last_keyframe_) {
     const Pose T_last_now = last_T_odom_base_.inverse() * scan.T_odom_base;
     const Matrix6 adjoint = adjointOfInverse(T_last_now);

@@ -46,11 +46,10 @@ void Odometry::reset() { *this = Odometry(config_); }
 
 std::optional<OdometryResult> Odometry::process(const Cloud& scan) {
   if (scan.empty() || (last_ && stampOf(scan) <= last_->stamp_s)) return std::nullopt;
-  const bool is_first = !last_;
   if (first_ != nullptr) findFirstMotion(scan);
-  OdometryResult result = is_first ? start(scan) : follow(scan);
+  OdometryResult result = last_ ? follow(scan) : start(scan);
   CpuStopwatch watch;
-  if (result.registered || is_first) placeInMap(*result.deskewed, result.T_odom_base);
+  if (result.registered) placeInMap(*result.deskewed, result.T_odom_base);
   result.map_ms = watch.lap();
   return result;
 }
@@ -64,8 +63,8 @@ OdometryResult Odometry::start(const Cloud& scan) {
   result.deskewed.reset(new Cloud(scan));
   result.inlier_ratio = 1.0;
 
+  result.registered = true;
   const Sweep sweep(scan, imu_);
-  result.registered = !sweep.hasTimes();
   if (sweep.hasTimes()) first_ = result.deskewed;
   last_ = startingMotion(result.stamp_s, result.T_odom_base);
   last_->seen_until_s = sweep.end_s();

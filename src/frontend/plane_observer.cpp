@@ -12,10 +12,10 @@ PlaneObserver::PlaneObserver(const PlaneSegmentationConfig& config)
 
 void PlaneObserver::addScan(const Cloud::ConstPtr& deskewed, const Pose& T_odom_base,
                             bool registered) {
-  if (registered) {
-    gatherer_.add(deskewed, T_odom_base);
-  } else {
+  if (!registered) {
     gatherer_.reset();
+  } else if (isOfOneMoment(*deskewed)) {
+    gatherer_.add(deskewed, T_odom_base);
   }
 }
 

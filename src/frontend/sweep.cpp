@@ -65,6 +65,7 @@ Cloud::Ptr Sweep::deskewed(const Tangent& velocity_base) const {
   if (!hasTimes()) return deskewed;
   for (Point& point : *deskewed) {
     point.getVector3fMap() = pointAtStamp(scanPoint(point), velocity_base).cast<float>();
+    point.time = 0.0F;
   }
   return deskewed;
 }

@@ -38,8 +38,9 @@ bool KeyframeClouds::attachTo(GraphSnapshot* graph, Without without) {
   for (KeyframeNode keyframe : graph->keyframes) {
     const auto cloud = find(keyframe.stamp_s);
     if (cloud != known_.end()) {
-      if (!cloud->second->empty()) keyframe.cloud = cloud->second;
-      (known_.count(cloud->first) > 0 ? used_known : used).insert(*cloud);
+      const bool is_known = clouds_.count(cloud->first) == 0;
+      if (!is_known || !cloud->second->empty()) keyframe.cloud = cloud->second;
+      (is_known ? used_known : used).insert(*cloud);
     } else if (without == Without::kLeaveOut) {
       continue;
     }

@@ -56,7 +56,7 @@ class KeyframesNodelet final : public PipelineNodelet {
     const ScanOdometry& odometry = *std::get<0>(*scan);
     const auto motion = toScanMotion(odometry);
     if (!motion || odometry.session != session_) return;
-    const auto keyframe = selector_->process(*motion, *std::get<1>(*scan), odometry.registered);
+    const auto keyframe = selector_->process(*motion, *std::get<1>(*scan));
     const auto decision = boost::make_shared<KeyframeDecision>();
     decision->header = odometry.header;
     decision->session = session_;

@@ -44,7 +44,7 @@ std::string Pipeline::addScan(const RawCloud& raw, const Pose& T_base_lidar,
   watch.lap();
 
   planes_.addScan(odometry->deskewed, odometry->T_odom_base, odometry->registered);
-  auto keyframe = keyframes_.process(motion, *odometry->deskewed, odometry->registered);
+  auto keyframe = keyframes_.process(motion, *odometry->deskewed);
   report.select_ms = watch.lap();
   back_end_.addScan(motion, report);
   if (listener_.on_scan) listener_.on_scan(*odometry);

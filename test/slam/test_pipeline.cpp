@@ -72,7 +72,7 @@ TEST_F(PipelineInABuilding, RecordsEveryScan) {
     EXPECT_NEAR(report.stamp_s, run_->truth[k].stamp_s, 1e-6);
     EXPECT_EQ(report.stamp_s, record_->odometry[k].stamp_s);
     EXPECT_EQ(report.stamp_s, record_->trajectory[k].stamp_s);
-    EXPECT_EQ(report.registered, k > 0) << k;
+    EXPECT_TRUE(report.registered) << k;
     for (const double time_ms : {report.prefilter_ms, report.deskew_ms, report.register_ms,
                                  report.map_ms, report.select_ms, report.segment_ms,
                                  report.keyframe_ms, report.rooms_ms}) {
@@ -175,6 +175,7 @@ TEST_F(PipelineInABuilding, ItsListenerHearsAllThatABackEndNeeds) {
     back_end.addKeyframe(keyframe, segment_ms);
   };
   play(*run_, SlamConfig{}, listener);
+  back_end.finish();
   const RunRecord heard = back_end.record();
   SlamConfig in_force;
   in_force.hierarchy.budget_ms = 0.0;  // offline
@@ -206,7 +207,7 @@ TEST_F(PipelineInABuilding, LeavesOutScansThatAreOfNoUse) {
   EXPECT_EQ(pipeline.scans(), 1U);
   const RunRecord record = pipeline.record();
   EXPECT_EQ(record.scans.size(), 1U);
-  EXPECT_EQ(record.graph->keyframes.size(), 1U);
+  EXPECT_EQ(record.graph->keyframes.size(), 0U) << "the first one waits for how the robot moves";
 }
 
 TEST(Pipeline, OfNothingRecordsNothing) {

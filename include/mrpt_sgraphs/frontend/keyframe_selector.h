@@ -64,10 +64,8 @@ class KeyframeSelector {
  public:
   explicit KeyframeSelector(const KeyframeConfig& config) : config_(config) {}
 
-  /// @param deskewed    The scan's cloud in the base frame.
-  /// @param registered  Whether its pose was measured: the first keyframe waits for one that was.
-  std::optional<Keyframe> process(const ScanMotion& scan, const Cloud& deskewed,
-                                  bool registered = true);
+  /// @param deskewed  The scan's cloud in the base frame. The first keyframe waits for one that is.
+  std::optional<Keyframe> process(const ScanMotion& scan, const Cloud& deskewed);
 
   void reset() { *this = KeyframeSelector(config_); }
 

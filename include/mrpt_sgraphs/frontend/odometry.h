@@ -50,10 +50,10 @@ struct OdometryResult {
   Tangent velocity_base = Tangent::Zero();  ///< [m/s, rad/s] during the scan.
   /// Of the motion since the last scan (right perturbation of T_odom_base, `[t; theta]`).
   Matrix6 covariance = Matrix6::Identity();
-  Cloud::Ptr deskewed;       ///< The scan as if it had been taken at its stamp; base frame.
-  /// False: the pose is a prediction only; or it is the first scan, and what moved in its sweep is not
-  /// known yet.
-  bool registered = false;
+  /// The scan as if it had been taken at its stamp; base frame. The first one has kept its times: it is
+  /// not known yet how the robot moved.
+  Cloud::Ptr deskewed;
+  bool registered = false;   ///< False: the pose is a prediction only.
   int degenerate_directions = 0;  ///< Directions that were left to the prediction.
   double inlier_ratio = 0.0;
   int iterations = 0;

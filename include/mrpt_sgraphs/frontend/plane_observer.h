@@ -15,7 +15,7 @@ class PlaneObserver {
   explicit PlaneObserver(const PlaneSegmentationConfig& config);
 
   /// Every scan, in the order in which they were placed.
-  /// @param deskewed    In the base frame; kept, not copied.
+  /// @param deskewed    In the base frame; kept, not copied. One that is not deskewed is left out.
   /// @param registered  Whether the pose was measured. Where it was not, the poses before and after
   ///                    do not fit together: what was gathered is forgotten.
   void addScan(const Cloud::ConstPtr& deskewed, const Pose& T_odom_base, bool registered);

@@ -7,6 +7,7 @@
 #include <pcl/register_point_struct.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 
 namespace mrpt_sgraphs {
@@ -26,6 +27,13 @@ using Cloud = pcl::PointCloud<Point>;
 /// Where the sensor was, in the cloud's frame [m].
 inline Eigen::Vector3d viewpointOf(const Cloud& cloud) {
   return cloud.sensor_origin_.head<3>().cast<double>();
+}
+
+/// Whether all of it is as if measured at one moment: deskewed, or without times.
+inline bool isOfOneMoment(const Cloud& cloud) {
+  return std::all_of(cloud.points.begin(), cloud.points.end(), [&cloud](const Point& point) {
+    return point.time == cloud.points.front().time;
+  });
 }
 
 /// PCL's stamps are microseconds.
