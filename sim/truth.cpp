@@ -146,6 +146,45 @@ Json doorsJson(const Building& building) {
   return doors;
 }
 
+/// A round footprint as a polygon.
+Polygon2 roundOutline(const Eigen::Vector2d& centre, double radius_m) {
+  constexpr int kCorners = 24;  // within 1 % of the radius
+  Polygon2 outline;
+  for (int k = 0; k < kCorners; ++k) {
+    outline.push_back(centre + radius_m * direction(2.0 * M_PI * k / kCorners));
+  }
+  return outline;
+}
+
+/// What stands in the rooms, each from its footprint up. Of tables and scaffolds it is the space
+/// that they stand in, and the platforms.
+Json obstaclesJson(const Building& building) {
+  Json obstacles = Json::array();
+  const auto add = [&](size_t storey, const Polygon2& outline, double bottom_m, double height_m) {
+    const double floor_m = building.storeys[storey].elevation_m;
+    obstacles.push_back({{"floor", storey},
+                         {"polygon", toJson(outline, floor_m + bottom_m)},
+                         {"height", height_m}});
+  };
+  for (const Furniture& piece : building.furniture) {
+    const Polygon2 outline =
+        rectangle(piece.at, {piece.size_m[0], piece.size_m[1]}, piece.yaw_rad);
+    add(piece.storey, outline, 0.0, piece.size_m[2]);
+    if (piece.kind != FurnitureKind::kScaffold) continue;
+    constexpr double kPlatform_m = 0.05;
+    for (double top_m = 1.0; top_m < piece.size_m[2]; top_m += 1.0) {
+      add(piece.storey, outline, top_m - kPlatform_m, kPlatform_m);
+    }
+  }
+  for (const Pillar& pillar : building.pillars) {
+    add(pillar.storey,
+        pillar.radius_m ? roundOutline(pillar.at, *pillar.radius_m)
+                        : rectangle(pillar.at, pillar.size_m, pillar.yaw_rad),
+        0.0, building.storeys[pillar.storey].height_m);
+  }
+  return obstacles;
+}
+
 void writeText(const std::filesystem::path& path, const std::string& text) {
   AtomicFile file(path);
   std::ofstream stream(file.part(), std::ios::binary);
@@ -174,7 +213,8 @@ std::string buildingJson(const Simulation& simulation) {
                   {"floors", floorsJson(building)},
                   {"rooms", roomsJson(simulation)},
                   {"walls", wallsJson(building, simulation.seenWalls())},
-                  {"doors", doorsJson(building)}};
+                  {"doors", doorsJson(building)},
+                  {"obstacles", obstaclesJson(building)}};
   constexpr int kIndent = 1;
   return json.dump(kIndent) + "\n";
 }

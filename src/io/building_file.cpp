@@ -54,6 +54,21 @@ void addSurface(const PlanarExtent& extent, TrueBuilding* building) {
   building->surfaces.emplace_back(extent.outline, extent.holes);
 }
 
+/// The sides and the top of what stands on a footprint.
+void addObstacle(const JsonPlace& place, TrueBuilding* building) {
+  const PlanarExtent foot = place.extent();
+  if (foot.outline.size() < 3) place["polygon"].fail("has fewer than 3 corners");
+  const double height_m = place["height"].number();
+  if (!(height_m > 0.0)) place["height"].fail("must be positive");
+  const PlanarExtent top = raised(foot, height_m);
+  addSurface(top, building);
+  for (std::size_t k = 0; k < foot.outline.size(); ++k) {
+    const std::size_t next = (k + 1) % foot.outline.size();
+    addSurface({{foot.outline[k], foot.outline[next], top.outline[next], top.outline[k]}, {}},
+               building);
+  }
+}
+
 TrueBuilding buildingFrom(const JsonPlace& document) {
   TrueBuilding building;
   const JsonPlace walls = document["walls"];
@@ -67,6 +82,10 @@ TrueBuilding buildingFrom(const JsonPlace& document) {
     if (room.height_m) addSurface(raised(room.extent, *room.height_m), &building);
   }
   if (building.surfaces.empty()) throw std::runtime_error("it has no walls and no rooms");
+  if (document.has("obstacles")) {
+    const JsonPlace obstacles = document["obstacles"];
+    for (std::size_t k = 0; k < obstacles.size(); ++k) addObstacle(obstacles[k], &building);
+  }
   if (!document.has("floors")) return building;
   const JsonPlace floors = document["floors"];
   for (std::size_t k = 0; k < floors.size(); ++k) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <memory>
 #include <stdexcept>
 
 #include "mrpt_sgraphs/io/atomic_file.h"
@@ -76,6 +77,43 @@ Image readPgm(const fs::path& path) {
   return image;
 }
 
+constexpr const char* kTreeTitle = "# Octomap OcTree binary file";
+
+/// As OctoMap's writeBinaryConst, which tells stderr of it.
+void writeTree(const octomap::OcTree& tree, std::ostream& out) {
+  out << kTreeTitle << "\n#\nid " << tree.getTreeType() << "\nsize " << tree.size() << "\nres "
+      << tree.getResolution() << "\ndata\n";
+  if (tree.getRoot() != nullptr && !tree.writeBinaryData(out)) {
+    throw std::runtime_error("the OctoMap could not be written");
+  }
+}
+
+/// As OctoMap's readBinary, which tells stderr of it.
+std::unique_ptr<octomap::OcTree> readTree(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string word;
+  std::getline(in, word);
+  if (!in || word != kTreeTitle) {
+    throw std::runtime_error("'" + path + "' is no binary OctoMap");
+  }
+  std::size_t size = 0;
+  double cell_m = 0.0;
+  while (in >> word && word != "data") {
+    if (word == "size") in >> size;
+    if (word == "res") in >> cell_m;
+    in.ignore(1 << 20, '\n');
+  }
+  in.ignore(1);
+  if (!in || !(cell_m > 0.0)) throw std::runtime_error("the head of '" + path + "' is none");
+  auto tree = std::make_unique<octomap::OcTree>(cell_m);
+  if (size > 0) tree->readBinaryData(in);
+  if (tree->size() != size) {
+    throw std::runtime_error("'" + path + "' has " + std::to_string(tree->size()) +
+                             " nodes and should have " + std::to_string(size));
+  }
+  return tree;
+}
+
 FloorGrid gridFrom(const YAML::Node& yaml, const fs::path& folder) {
   FloorGrid grid;
   grid.cell_m = yaml["resolution"].as<double>();
@@ -135,7 +173,7 @@ void writeMapFiles(const std::string& folder, const GraphSnapshot& graph, const 
   OccupancyMap map(config);
   map.update(graph);
   writeFile(fs::path(folder) / "map.bt", [&](std::ostream& out) {
-    if (!octreeOf(map)->writeBinaryConst(out)) throw std::runtime_error("cannot write map.bt");
+    writeTree(*octreeOf(map), out);
   });
   for (const FloorGrid& grid : floorGrids(map, graph, config)) {
     const std::string name = "floor_" + std::to_string(grid.floor.value);
@@ -155,12 +193,11 @@ FloorGrid readGrid(const std::string& yaml_path) {
 }
 
 std::vector<Eigen::Vector3f> readOccupiedCells(const std::string& path) {
-  octomap::OcTree tree(0.1);
-  if (!tree.readBinary(path)) throw std::runtime_error("'" + path + "' is no binary OctoMap");
-  tree.expand();
+  const auto tree = readTree(path);
+  tree->expand();
   std::vector<Eigen::Vector3f> centres;
-  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
-    if (!tree.isNodeOccupied(*leaf)) continue;
+  for (auto leaf = tree->begin_leafs(); leaf != tree->end_leafs(); ++leaf) {
+    if (!tree->isNodeOccupied(*leaf)) continue;
     centres.emplace_back(static_cast<float>(leaf.getX()), static_cast<float>(leaf.getY()),
                          static_cast<float>(leaf.getZ()));
   }

@@ -7,9 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "mrpt_sgraphs/io/atomic_file.h"
-#include "mrpt_sgraphs/io/exports.h"
-#include "mrpt_sgraphs/mapping/map_cloud.h"
+#include "mrpt_sgraphs/io/map_cloud_file.h"
 #include "mrpt_sgraphs/ros/conversions.h"
 #include "service_answer.h"
 
@@ -80,19 +78,21 @@ bool GraphServices::optimize(Optimize::Request&, Optimize::Response& response) {
 bool GraphServices::saveMap(SaveMap::Request& request, SaveMap::Response& response) {
   return answer(response, [&] {
     if (request.path.empty()) throw std::invalid_argument("nothing was written: no path given");
-    if (!(request.resolution >= 0.0)) {
-      throw std::invalid_argument("nothing was written: the resolution must not be below 0");
-    }
     const RunRecord record = notEmpty(slam_.record().get());
-    const fs::path path = fs::absolute(request.path);
-    const Cloud::ConstPtr map = mapCloud(
-        *record.graph, request.resolution > 0.0 ? request.resolution : record.map_resolution_m);
-    AtomicFile file(path.string());
-    writePcd(*map, file.stream());
-    file.commit();
+    MapFileRequest file;
+    file.path = fs::absolute(request.path).string();
+    file.resolution_m = request.resolution == 0.0 ? record.map_resolution_m : request.resolution;
+    file.floor = request.floor;
+    file.colour_by_room = request.colour_by_room;
+    std::size_t points = 0;
+    try {
+      points = writeMapCloud(*record.graph, file);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(std::string("nothing was written: ") + error.what());
+    }
     std::ostringstream text;
-    text << map->size() << " points of " << record.graph->keyframes.size() << " keyframes in "
-         << path.string();
+    text << points << " points of " << record.graph->keyframes.size() << " keyframes in "
+         << file.path;
     return text.str();
   });
 }

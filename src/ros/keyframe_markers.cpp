@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_markers.h"
 #include "marker_layer.h"
+#include "mrpt_sgraphs/factors/condensed.h"
 
 namespace mrpt_sgraphs {
 namespace {
@@ -12,6 +13,8 @@ constexpr double kSphere_m = 0.25;
 constexpr double kDroppedSphere_m = 0.15;
 constexpr double kEdge_m = 0.04;
 constexpr double kLoop_m = 0.05;
+constexpr double kCondensed_m = 0.04;
+constexpr double kCondensedSight_m = 0.02;
 constexpr double kBoxLine_m = 0.025;
 constexpr double kBoxHalfEdge_m = 0.25;
 
@@ -27,6 +30,26 @@ void addBox(const Eigen::Vector3d& centre_map, Marker* lines) {
       if (neighbour != number) addLine(corner(number), corner(neighbour), lines);
     }
   }
+}
+
+/// From the kept keyframe of each condensed factor to the others, which nothing else ties to it.
+void addCondensedMarkers(const GraphSnapshot& graph, const ShownPlaces& places,
+                         const std::string& map_frame, visualization_msgs::MarkerArray* markers) {
+  Marker keyframes =
+      layer("condensed", Marker::LINE_LIST, kCondensed_m, colour(0.5F, 0.2F, 0.75F), map_frame);
+  Marker walls = layer("condensed_observations", Marker::LINE_LIST, kCondensedSight_m,
+                       colour(0.5F, 0.2F, 0.75F, 0.3F), map_frame);
+  for (const StoredFactor& stored : graph.factors) {
+    const auto* const factor = dynamic_cast<const CondensedFactor*>(stored.factor.get());
+    if (factor == nullptr) continue;
+    for (const CondensedFactor::Other& other : factor->others()) {
+      if (other.node.layer == Layer::kFloor) continue;  // all see the ground: too many lines
+      addEdge(places, factor->kept(), other.node,
+              other.node.layer == Layer::kKeyframe ? &keyframes : &walls);
+    }
+  }
+  markers->markers.push_back(keyframes);
+  markers->markers.push_back(walls);
 }
 
 }  // namespace
@@ -53,6 +76,7 @@ void addKeyframeMarkers(const GraphSnapshot& graph, const ShownPlaces& places,
   for (const Marker& marker : {keyframes, marginalized, odometry, loops}) {
     markers->markers.push_back(marker);
   }
+  addCondensedMarkers(graph, places, map_frame, markers);
 }
 
 void addOptimizationMarkers(const GraphSnapshot& graph, const ShownPlaces& places,

@@ -4,11 +4,13 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "far_thinning.h"
 #include "graph_palette.h"
 #include "mrpt_sgraphs/mapping/shown_places.h"
 #include "shown_graph.h"
@@ -43,8 +45,8 @@ struct SceneOptions {
   float wall_alpha = 0.5F;
   float room_alpha = 0.4F;
   float label_height_m = 0.9F;  ///< Of a room; floors are larger, walls and keyframes smaller.
-  double near_m = 30.0;         ///< Keyframes beyond are thinned; 0: none.
-  int thin_above = 1000;        ///< Unless there are no more of them than this.
+  double near_m = 30.0;         ///< What is farther from the eye is thinned; 0: nothing.
+  int thin_above = 1000;        ///< Unless there are no more keyframes than this.
 };
 
 /// Spheres or boxes of one size.
@@ -108,13 +110,23 @@ struct GraphDrawing {
         palette(*graph, options.colour_by),
         places(graph->nodes, options.layer_lift_m) {}
 
+  /// Whether what is far from the eye is left out: of keyframes that are close together all but
+  /// one, what they see, and what fills walls and rooms.
+  bool isThinned() const {
+    return options.near_m > 0.0 &&
+           graph->nodes.keyframes.size() > static_cast<std::size_t>(options.thin_above);
+  }
+  bool isFar(const Eigen::Vector3d& place, const Eye& eye) const {
+    return isThinned() && eye.distanceTo(place) > options.near_m;
+  }
+
   ShownGraphConstPtr graph;
   SceneOptions options;
   GraphPalette palette;
   ShownPlaces places;
 };
 
-/// Walls, rooms, floors and what joins them: looks the same from everywhere.
-GraphScene structureScene(const GraphDrawing& drawing);
+/// Walls, rooms, floors and what joins them.
+GraphScene structureScene(const GraphDrawing& drawing, const Eye& eye);
 
 }  // namespace mrpt_sgraphs

@@ -87,21 +87,16 @@ void KeyframeScene::add(const KeyframeNode& node) {
   places_.push_back(*drawing_->places.find(node.id));
 }
 
-bool KeyframeScene::isThinned() const {
-  const SceneOptions& options = drawing_->options;
-  return options.near_m > 0.0 && ids_.size() > static_cast<std::size_t>(options.thin_above);
-}
-
 bool KeyframeScene::dependsOnTheEye() const {
-  return isThinned() || drawing_->options.keyframe_labels;
+  return drawing_->isThinned() || drawing_->options.keyframe_labels;
 }
 
 GraphScene KeyframeScene::seenFrom(const Eye& eye) {
-  shown_ = thinnedFarAway(places_, eye, isThinned() ? drawing_->options.near_m : 0.0);
+  shown_ = thinnedFarAway(places_, eye, drawing_->isThinned() ? drawing_->options.near_m : 0.0);
   Sets sets;
   addKeyframes(&sets);
   shown_count_ = sets.kept.points.size() + sets.dropped.points.size();
-  addTies(&sets);
+  addTies(eye, &sets);
   if (drawing_->options.representatives) addRepresentatives(&sets);
   return {{sets.kept, sets.dropped},
           {sets.odometry, sets.loops, sets.condensed, sets.condensed_sights, sets.sights,
@@ -124,7 +119,7 @@ void KeyframeScene::addKeyframes(Sets* sets) const {
 }
 
 /// Those between keyframes and to walls and floors that are shown.
-bool KeyframeScene::isWanted(const Tie& tie) const {
+bool KeyframeScene::isWanted(const Tie& tie, const Eye& eye) const {
   const SceneOptions& options = drawing_->options;
   const auto isThere = [&](NodeId node) {
     switch (node.layer) {
@@ -140,6 +135,8 @@ bool KeyframeScene::isWanted(const Tie& tie) const {
     return false;
   };
   if (!isThere(tie.from) || !isThere(tie.to)) return false;
+  const bool is_sight = tie.to.layer != Layer::kKeyframe;
+  if (is_sight && drawing_->isFar(*drawing_->places.find(tie.from), eye)) return false;
   switch (tie.kind) {
     case TieKind::kOdometry:
       return options.odometry;
@@ -158,7 +155,7 @@ bool KeyframeScene::isWanted(const Tie& tie) const {
   return false;
 }
 
-void KeyframeScene::addTies(Sets* sets) const {
+void KeyframeScene::addTies(const Eye& eye, Sets* sets) const {
   const ShownPlaces& places = drawing_->places;
   UniqueLines odometry(places, kGrey, &sets->odometry);
   UniqueLines loops(places, kRed, &sets->loops);
@@ -181,7 +178,7 @@ void KeyframeScene::addTies(Sets* sets) const {
     }
   };
   for (const Tie& tie : drawing_->graph->ties) {
-    if (isWanted(tie)) linesOf(tie).add(shownFor(tie.from), shownFor(tie.to));
+    if (isWanted(tie, eye)) linesOf(tie).add(shownFor(tie.from), shownFor(tie.to));
   }
 }
 

@@ -13,8 +13,8 @@
 namespace mrpt_sgraphs {
 
 /// Keyframes and what ends at them, as they are seen from somewhere: what is far from the eye is
-/// thinned. A line to a keyframe that is not shown goes to the one that stands for it, so that what
-/// is tied together stays so.
+/// thinned. A line between keyframes that are not shown goes to those that stand for them, so that
+/// what is tied together stays so; what far ones see is left out.
 class KeyframeScene {
  public:
   explicit KeyframeScene(std::shared_ptr<const GraphDrawing> drawing);
@@ -31,12 +31,11 @@ class KeyframeScene {
  private:
   struct Sets;
 
-  bool isThinned() const;
   void add(const KeyframeNode& node);
   NodeId shownFor(NodeId node) const;
-  bool isWanted(const Tie& tie) const;
+  bool isWanted(const Tie& tie, const Eye& eye) const;
   void addKeyframes(Sets* sets) const;
-  void addTies(Sets* sets) const;
+  void addTies(const Eye& eye, Sets* sets) const;
   void addRepresentatives(Sets* sets) const;
   std::vector<Label> labels(const Eye& eye) const;
 

@@ -74,12 +74,13 @@ SituationalGraphDisplay::SituationalGraphDisplay() {
                              defaults.layer_lift_m, 1000.0, this);
   near_property_ = addNumber("Thin Beyond",
                              "Of keyframes farther from the camera than this [m], one is shown for "
-                             "all that are close together. 0: all are shown.",
+                             "all that are close together, without what they see; walls and rooms "
+                             "are outlines there. 0: all is shown.",
                              defaults.near_m, 1e6, this);
-  thin_above_property_ = new rviz::IntProperty(
-      "Thin Above", defaults.thin_above,
-      "No keyframe is left out as long as there are no more of them than this.", this,
-      SLOT(updateOptions()));
+  thin_above_property_ =
+      new rviz::IntProperty("Thin Above", defaults.thin_above,
+                            "Nothing is left out as long as there are no more keyframes than this.",
+                            this, SLOT(updateOptions()));
   thin_above_property_->setMin(0);
   addLayers();
   addLabels();
@@ -270,28 +271,29 @@ void SituationalGraphDisplay::update(float wall_dt_s, float /*ros_dt_s*/) {
   if (!graph) return;
   if (is_new) {
     drawing_ = std::make_shared<GraphDrawing>(graph, options());
-    draw();
+    prepare();
   }
   if (!placeInFixedFrame()) return;
   const std::optional<Eye> eye = this->eye();
   if (!eye) return;
   const bool is_moved = drawn_from_ && since_drawn_s_ > kRedrawEvery_s &&
                         !isNear(*eye, *drawn_from_, drawing_->options.near_m);
-  if (!drawn_from_ || (is_moved && keyframe_scene_->dependsOnTheEye())) drawKeyframes(*eye);
+  if (!drawn_from_ || (is_moved && keyframe_scene_->dependsOnTheEye())) draw(*eye);
   structure_objects_->lookFrom(*eye);
   keyframe_objects_->lookFrom(*eye);
 }
 
-/// All but the keyframes, which are drawn when it is known from where they are looked at.
-void SituationalGraphDisplay::draw() {
-  structure_objects_->show(structureScene(*drawing_));
+void SituationalGraphDisplay::prepare() {
   keyframe_scene_ = std::make_unique<KeyframeScene>(drawing_);
   drawn_from_.reset();
   selection_->graphChanged();
   setStatus(StatusProperty::Ok, "Graph", sizesOf(*drawing_->graph));
 }
 
-void SituationalGraphDisplay::drawKeyframes(const Eye& eye) {
+void SituationalGraphDisplay::draw(const Eye& eye) {
+  if (!drawn_from_ || drawing_->isThinned()) {
+    structure_objects_->show(structureScene(*drawing_, eye));
+  }
   keyframe_objects_->show(keyframe_scene_->seenFrom(eye));
   drawn_from_ = eye;
   since_drawn_s_ = 0.0;
@@ -301,6 +303,10 @@ void SituationalGraphDisplay::drawKeyframes(const Eye& eye) {
                                     : "shown " + QString::number(shown) + " of " +
                                           counted(all, "keyframe") + " (far ones thinned)";
   setStatus(StatusProperty::Ok, "Keyframes", text);
+  setStatus(StatusProperty::Ok, "Far Away",
+            drawing_->isThinned() ? "walls and rooms as outlines, no sightings, beyond " +
+                                        QString::number(drawing_->options.near_m) + " m"
+                                  : QString("nothing is left out"));
   context_->queueRender();
 }
 

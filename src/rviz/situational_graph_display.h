@@ -82,8 +82,8 @@ class SituationalGraphDisplay final : public rviz::Display {
   std::optional<News> takeNews();
   void clear();
 
-  void draw();
-  void drawKeyframes(const Eye& eye);
+  void prepare();
+  void draw(const Eye& eye);
   bool placeInFixedFrame();
   std::optional<Eye> eye() const;
   Ogre::AxisAlignedBox boxOf(NodeId node) const;

@@ -42,7 +42,7 @@ const Eigen::Vector3f kStairsColour(0.8F, 0.5F, 0.1F);
 
 class StructureScene {
  public:
-  explicit StructureScene(const GraphDrawing& drawing) : drawing_(drawing) {
+  StructureScene(const GraphDrawing& drawing, const Eye& eye) : drawing_(drawing), eye_(eye) {
     sets_.walls.alpha = drawing.options.wall_alpha;
     sets_.walls.from_both_sides = drawing.options.wall_backs;
     sets_.grounds.alpha = drawing.options.room_alpha;
@@ -79,8 +79,10 @@ class StructureScene {
     if (start != nullptr && end != nullptr) addLine(*start, *end, rgb, lines);
   }
 
+  /// Nothing far away: its outline has to do, as what is filled costs most of the time.
   void addArea(NodeId node, const PlanarExtent& extent_map, const Plane& plane_map,
                AreaSet* area) const {
+    if (drawing_.isFar(placeOf(node), eye_)) return;
     const auto shown = [&](const Eigen::Vector3d& corner_map) -> Eigen::Vector3f {
       return drawing_.places.lifted(corner_map, node.layer).cast<float>();
     };
@@ -181,12 +183,15 @@ class StructureScene {
   }
 
   const GraphDrawing& drawing_;
+  const Eye eye_;
   Sets sets_;
   std::vector<Label> labels_;
 };
 
 }  // namespace
 
-GraphScene structureScene(const GraphDrawing& drawing) { return StructureScene(drawing).scene(); }
+GraphScene structureScene(const GraphDrawing& drawing, const Eye& eye) {
+  return StructureScene(drawing, eye).scene();
+}
 
 }  // namespace mrpt_sgraphs

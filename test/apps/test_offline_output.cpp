@@ -24,7 +24,8 @@ constexpr double kMaxAte_m = 0.02;
 
 const char* const kFiles[] = {"trajectory.tum", "odometry.tum",      "keyframes.tum",
                               "graph.json",     "graph.g2o",         "map.pcd",
-                              "scans.csv",      "optimizations.csv", "report.json"};
+                              "scans.csv",      "optimizations.csv", "report.json",
+                              "map.bt",         "floor_0.pgm",       "floor_0.yaml"};
 
 /// A run over the whole tour, made once.
 class OfflineOutputTest : public ::testing::Test {
@@ -267,7 +268,8 @@ TEST_F(OfflineOutputTest, ASecondRunIsTheSameButForTimes) {
   ASSERT_EQ(runOffline(wholeTour().bag(), folder_->file("again")).exit_code, 0);
   const auto again = [](const char* name) { return folder_->read(std::string("again/") + name); };
   for (const char* name :
-       {"trajectory.tum", "odometry.tum", "keyframes.tum", "graph.json", "graph.g2o", "map.pcd"}) {
+       {"trajectory.tum", "odometry.tum", "keyframes.tum", "graph.json", "graph.g2o", "map.pcd",
+        "map.bt", "floor_0.pgm", "floor_0.yaml"}) {
     EXPECT_TRUE(again(name) == read(name)) << name;  // not EXPECT_EQ, which would print them
   }
   for (const char* name : {"scans.csv", "optimizations.csv"}) {

@@ -39,7 +39,7 @@ class OfflineReplayTest : public ::testing::Test {
 
   static void expectTheSameRun(const std::string& name) {
     for (const char* file : {"trajectory.tum", "odometry.tum", "keyframes.tum", "graph.json",
-                             "graph.g2o", "map.pcd"}) {
+                             "graph.g2o", "map.pcd", "map.bt"}) {
       EXPECT_NE(folder_->read("run/" + std::string(file)), "");
       EXPECT_TRUE(folder_->read(name + "/" + file) == folder_->read("run/" + std::string(file)))
           << file;  // not EXPECT_EQ, which would print them

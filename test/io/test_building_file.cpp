@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "graph_files.h"
@@ -21,6 +22,28 @@ constexpr const char* kBoxes = R"([
   {"name": "21", "min": [15.3, -14.7, 3.55], "max": [18.3, -8.8, 6.8], "scans_inside": 29},
   {"name": "22", "min": [19.0, -14.7, 3.60], "max": [20.0, -8.8, 6.8], "scans_inside": 9},
   {"name": "31", "min": [15.3, -14.7, 7.00], "max": [18.3, -8.8, 9.8], "scans_inside": 9}])";
+
+TEST(BuildingFile, ObstaclesHaveSidesAndATop) {
+  const test::TemporaryFolder folder;
+  const std::string text = R"({"walls": [], "rooms": [{"polygon": [[0,0,0],[9,0,0],[9,4,0]]}],
+    "obstacles": [{"polygon": [[1,1,0.5],[2,1,0.5],[2,3,0.5],[1,3,0.5]], "height": 0.25}]})";
+  const TrueBuilding building = readBuilding(folder.write("building.json", text));
+  ASSERT_EQ(building.surfaces.size(), 6u);
+  const Eigen::Vector3d on_top(1.5, 2.0, 0.75), on_a_side(2.0, 2.0, 0.6), below(1.5, 2.0, 0.5);
+  const auto nearest_m = [&](const Eigen::Vector3d& point) {
+    double least = 1e9;
+    for (std::size_t k = 1; k < 6; ++k) {
+      least = std::min(least, building.surfaces[k].distance(point));
+    }
+    return least;
+  };
+  EXPECT_NEAR(nearest_m(on_top), 0.0, 1e-12);
+  EXPECT_NEAR(nearest_m(on_a_side), 0.0, 1e-12);
+  EXPECT_NEAR(nearest_m(below), 0.25, 1e-12);
+  const std::string flat = R"({"walls": [], "rooms": [{"polygon": [[0,0,0],[9,0,0],[9,4,0]]}],
+    "obstacles": [{"polygon": [[1,1,0],[2,1,0],[2,3,0]], "height": 0.0}]})";
+  EXPECT_THROW(readBuilding(folder.write("flat.json", flat)), std::runtime_error);
+}
 
 TEST(BuildingFile, TellsOfRoomsAndFloors) {
   const test::TemporaryFolder folder;

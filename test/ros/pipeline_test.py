@@ -28,7 +28,7 @@ from mrpt_sgraphs.srv import Dump, Optimize, SaveMap
 from ros_support import RosoutLog, wait_for
 
 FILES = ['trajectory.tum', 'odometry.tum', 'keyframes.tum', 'graph.json', 'graph.g2o', 'map.pcd',
-         'optimizations.csv', 'scans.csv', 'report.json']
+         'map.bt', 'optimizations.csv', 'scans.csv', 'report.json']
 INSIDE_TOPICS = ['points_filtered', 'points_deskewed', 'keyframe_points', 'keyframe',
                  'scan_odometry', 'keyframe_decision', 'keyframe_planes', 'rooms', 'floors']
 WALL_NAMESPACES = {'walls', 'wall_outlines', 'wall_ids', 'wall_observations'}
@@ -163,12 +163,23 @@ class PipelineTest(unittest.TestCase):
 
     def test_save_map_writes_a_binary_pcd(self):
         path = os.path.join(tempfile.mkdtemp(), 'map.pcd')
-        answer = rospy.ServiceProxy('/sgraphs/save_map', SaveMap)(path, 0.1)
+        answer = rospy.ServiceProxy('/sgraphs/save_map', SaveMap)(path, 0.1, '', False)
         self.assertTrue(answer.success, answer.message)
         with open(path, 'rb') as pcd:
             header = pcd.read(2000)
         self.assertIn(b'DATA binary\n', header)
         self.assertRegex(header, rb'FIELDS x y z')
+
+    def test_save_map_says_what_cannot_be(self):
+        save_map = rospy.ServiceProxy('/sgraphs/save_map', SaveMap)
+        for path, resolution, floor, why in [('map.txt', 0.1, '', '.pcd or .ply'),
+                                             ('map.ply', -1.0, '', 'resolution'),
+                                             ('map.ply', 0.1, 'attic', "no floor 'attic'")]:
+            path = os.path.join(tempfile.mkdtemp(), path)
+            answer = save_map(path, resolution, floor, True)
+            self.assertFalse(answer.success)
+            self.assertIn(why, answer.message)
+            self.assertFalse(os.path.exists(path))
 
     def test_optimize_reports_what_it_did(self):
         answer = rospy.ServiceProxy('/sgraphs/optimize', Optimize)()

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "mrpt_sgraphs/factors/condensed.h"
 #include "mrpt_sgraphs/mapping/node_colour.h"
 #include "mrpt_sgraphs/ros/markers.h"
 #include "some_rooms.h"
@@ -62,6 +64,24 @@ TEST(Markers, ShowEachLayerInItsOwnNamespace) {
   EXPECT_EQ(markers[0].points.size(), 3U);
   EXPECT_EQ(markers[1].points.size(), 4U);
   EXPECT_EQ(markers[2].points.size(), 2U);
+}
+
+TEST(Markers, TieTheKeptKeyframeToWhatItsCondensedFactorHolds) {
+  GraphSnapshot graph = test::threeKeyframesBetweenWalls();
+  const std::vector<CondensedFactor::Other> others{
+      {KeyframeId{2}, Pose::Identity()}, {WallId{4}, Plane{}}, {FloorId{0}, Plane{}}};
+  const CondensedFactor::Quadratic quadratic{Eigen::MatrixXd::Identity(12, 12),
+                                             Eigen::VectorXd::Zero(12), 0.0};
+  graph.factors.push_back(
+      {FactorId{99}, std::make_shared<CondensedFactor>(KeyframeId{0}, others, quadratic)});
+  const auto markers = markersOf(graph);
+  const Marker condensed = markerNamed("condensed", markers);
+  ASSERT_EQ(condensed.points.size(), 2U);
+  EXPECT_EQ(at(condensed.points[0]), graph.keyframes[0].T_map_base.translation());
+  EXPECT_EQ(at(condensed.points[1]), graph.keyframes[2].T_map_base.translation());
+  const Marker sights = markerNamed("condensed_observations", markers);
+  ASSERT_EQ(sights.points.size(), 2U) << "to the wall, and not to the floor";
+  EXPECT_EQ(at(sights.points[1]), at(markerNamed("wall_ids", markers).pose.position));
 }
 
 TEST(Markers, OfAnEmptyGraphRemoveWhatWasShown) { EXPECT_TRUE(markersOf(GraphSnapshot()).empty()); }

@@ -44,8 +44,9 @@ struct TrueBuilding {
   std::vector<TrueRoom> rooms;
   bool all_rooms_listed = true;  ///< Else there are others, of which nothing is told.
   std::vector<TrueFloor> floors;
-  /// The walls with their doors and windows cut out, and every room's floor and ceiling. Furniture,
-  /// pillars and stairs are not in that file: a map of them counts as error.
+  /// The walls with their doors and windows cut out, every room's floor and ceiling, and the sides
+  /// and tops of the obstacles, where the file has them: else a map of furniture and pillars counts
+  /// as error. Stairs do.
   std::vector<FlatSurface> surfaces;
 };
 

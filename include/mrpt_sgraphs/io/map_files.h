@@ -30,7 +30,7 @@ void writeMapFiles(const std::string& folder, const GraphSnapshot& graph, const 
 FloorGrid readGrid(const std::string& yaml_path);
 
 /// The centres of the occupied cells of a .bt file, each as large as the smallest.
-/// @throws std::runtime_error naming the file.
+/// @throws std::runtime_error naming the file and what is wrong with it.
 std::vector<Eigen::Vector3f> readOccupiedCells(const std::string& path);
 
 }  // namespace mrpt_sgraphs

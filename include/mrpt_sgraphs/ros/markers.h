@@ -24,6 +24,8 @@ struct GraphView {
 ///
 ///   keyframes, marginalized_keyframes      black and red spheres
 ///   odometry, loop_closures                grey and red lines
+///   condensed, condensed_observations      violet lines from the kept keyframe of a condensed factor
+///                                          to the keyframes and walls that it is tied to
 ///   free_keyframes, fixed_keyframes        green and blue boxes: the last optimization
 ///   walls, wall_outlines, wall_ids         in colours of their own, with their doors
 ///   wall_observations                      from the keyframes to the walls that they see
