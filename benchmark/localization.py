@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A robot that is switched on somewhere in a building whose map is known.
 
-    localization.py [SET ...] [--starts 20] [--seconds 40] [--jobs 2] [--out DIR]
+    localization.py [SET ...] [--starts 20] [--seconds 40] [--params FILE] [--jobs 2]
+                    [--out DIR]
 
 A SET is MAP:SESSION, two buildings of sim/buildings; without one: the office, the construction
 floors, the two storeys and the skewed building in their own maps, and each construction floor in the
@@ -146,7 +147,7 @@ class Benchmark:
     def run(self, start):
         self.offline(start.session, start.seed, self.run_folder(start), "--start", f"{start.at_s:.3f}",
                      "--duration", self.arguments.seconds, "--load", self.map_folder(start.map),
-                     "--localize")
+                     "--localize", *(["--params", self.arguments.params] if self.arguments.params else []))
         return self.measure(start)
 
     def measure(self, start):
@@ -213,6 +214,7 @@ def arguments_of():
     parser.add_argument("sets", nargs="*", metavar="SET", default=SETS)
     parser.add_argument("--starts", type=int, default=20)
     parser.add_argument("--seconds", type=float, default=40.0, help="of each start")
+    parser.add_argument("--params", type=Path, default=None, help="parameter file of the starts")
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time")
     parser.add_argument("--build", type=Path, default=HERE.parent / "build",
                         help="folder in which our programs were built")

@@ -23,7 +23,7 @@ struct RelocationConfig {
   double min_coverage = 0.75;   ///< Share of them that the map has to know.
   double min_agreement = 0.9;   ///< Of what both have seen.
   double min_lead_m = 4.0;      ///< By which a place has to fit better than every other one,
-  double min_lead = 0.08;       ///< and as a share of what speaks for it.
+  double min_lead = 0.05;       ///< and as a share of what speaks for it.
   double min_overlap = 0.6;     ///< Share of the newest scan's points that must find their plane
   double max_rms_m = 0.04;      ///< with no larger distances.
   double sigma_floor_m = 0.01;  ///< No place is known better than this
