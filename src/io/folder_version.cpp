@@ -4,6 +4,7 @@
 #include "mrpt_sgraphs/io/folder_version.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -53,6 +54,14 @@ std::optional<unsigned long> versionOf(const fs::path& entry, const fs::path& li
     return std::nullopt;
   }
   return std::stoul(digits);
+}
+
+/// What cannot be replaced by a link.
+bool isMounted(const fs::path& folder) {
+  struct stat own {};
+  struct stat parent {};
+  return lstat(folder.c_str(), &own) == 0 && S_ISDIR(own.st_mode) &&
+         stat(folder.parent_path().c_str(), &parent) == 0 && own.st_dev != parent.st_dev;
 }
 
 std::vector<fs::path> versionsOf(const fs::path& link) {
@@ -113,6 +122,7 @@ FolderVersion::FolderVersion(const std::string& path) : link_(withoutSlash(path)
   reported(link_, [&] {
     fs::create_directories(link_.parent_path());
     if (fs::exists(link_) && !fs::is_directory(link_)) fail(link_, "it is a file");
+    if (isMounted(link_)) fail(link_, "it is a disk of its own; name a folder on it");
     unsigned long version = 0;
     for (const fs::path& known : versionsOf(link_)) {
       version = std::max(version, *versionOf(known, link_));

@@ -208,7 +208,7 @@ class PipelineTest(unittest.TestCase):
         trace = self.addresses()
         for topic, at_least, subscribers in [('points_filtered', 100, 1),
                                              ('points_deskewed', 100, 2),
-                                             ('keyframe_points', 5, 2), ('keyframe_planes', 5, 1)]:
+                                             ('keyframe_points', 5, 3), ('keyframe_planes', 5, 1)]:
             published = trace.get(('publish', topic), [])
             received = trace.get(('receive', topic), [])
             self.assertGreater(len(published), at_least, topic)
