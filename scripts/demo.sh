@@ -70,7 +70,9 @@ fail() {
 }
 
 lift=10
-scripts/demo_view.py ${screen_pid:+--bare} rviz/sgraphs.rviz "$simulated/truth" "$lift" \
+view=rviz/sgraphs.rviz
+[ ! -f devel/lib/libmrpt_sgraphs_rviz.so ] || view=rviz/sgraphs_plugin.rviz
+scripts/demo_view.py ${screen_pid:+--bare} "$view" "$simulated/truth" "$lift" \
   > "$out/demo.rviz"
 echo "demo.sh: playing $simulated/run.bag, log in $log"
 roslaunch -p "$port" mrpt_sgraphs demo.launch bag:="$simulated/run.bag" \
@@ -83,7 +85,7 @@ done
 
 sleep 3  # the last scans are still on their way
 rm -rf "$result"
-rosservice call /sgraphs/dump "{folder: '$result', finish: true}" > "$out/dump.log" 2>&1 || fail "dump failed"
+rosservice call /sgraphs/dump "folder: '$result'" > "$out/dump.log" 2>&1 || fail "dump failed"
 grep -q 'success: True' "$out/dump.log" || { cat "$out/dump.log" >&2; fail "dump failed"; }
 sleep 2
 import -window root "$result/picture.png"

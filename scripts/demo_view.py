@@ -31,22 +31,36 @@ def without_panels(config):
     return re.sub(r'\n +QMainWindow State: .*', '', config)
 
 
-def view_of(truth, lift):
-    """Of rviz's camera, by the names in its file."""
-    with open(os.path.join(truth, 'building.json')) as text:
-        building = json.load(text)
-    corners = [corner for wall in building['walls'] for corner in wall['polygon']]
-    low, high = [[bound(values) for values in zip(*corners)] for bound in (min, max)]
-    middle = [(a + b) / 2.0 for a, b in zip(low, high)]
+def bounds(corners):
+    """The lowest and the highest of each coordinate."""
+    return [[bound(values) for values in zip(*corners)] for bound in (min, max)]
+
+
+def camera(low, high, lift):
+    """By the names in rviz's file: where it looks at a box with its layers above each other."""
     height = high[2] - low[2] + 3.0 * lift  # the fourth layer is three lifts up
     radius = math.hypot(high[0] - low[0], high[1] - low[1], height) / 2.0
-
-    x, y, heading = first_pose(os.path.join(truth, 'base_trajectory.tum'))
-    dx, dy = middle[0] - x, middle[1] - y
-    return {'X': dx * math.cos(heading) + dy * math.sin(heading),
-            'Y': dy * math.cos(heading) - dx * math.sin(heading),
+    return {'X': (low[0] + high[0]) / 2.0, 'Y': (low[1] + high[1]) / 2.0,
             'Z': low[2] + 0.44 * height,  # nearer things are lower in the picture
             'Distance': DISTANCE_OVER_RADIUS * radius}
+
+
+def view_of(truth, lift):
+    """The camera in the map of a robot that walked through a simulated building."""
+    with open(os.path.join(truth, 'building.json')) as text:
+        building = json.load(text)
+    view = camera(*bounds([corner for wall in building['walls'] for corner in wall['polygon']]), lift)
+    x, y, heading = first_pose(os.path.join(truth, 'base_trajectory.tum'))
+    dx, dy = view['X'] - x, view['Y'] - y
+    return {**view, 'X': dx * math.cos(heading) + dy * math.sin(heading),
+            'Y': dy * math.cos(heading) - dx * math.sin(heading)}
+
+
+def with_view(config, view):
+    before, views, after = config.partition('\n  Views:\n')
+    for name, value in view.items():
+        after = re.sub(r'(\n +%s): .*' % name, r'\1: %.2f' % value, after, count=1)
+    return before + views + after
 
 
 def main():
@@ -59,10 +73,9 @@ def main():
     given = parser.parse_args()
     with open(given.config) as text:
         config = text.read()
-    before, views, after = (without_panels(config) if given.bare else config).partition('\n  Views:\n')
-    for name, value in view_of(given.truth, given.lift).items():
-        after = re.sub(r'(\n +%s): .*' % name, r'\1: %.2f' % value, after, count=1)
-    sys.stdout.write(before + views + after)
+    if given.bare:
+        config = without_panels(config)
+    sys.stdout.write(with_view(config, view_of(given.truth, given.lift)))
 
 
 if __name__ == '__main__':

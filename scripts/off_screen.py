@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """rviz where there is no screen, and a master of its own: what the pictures and the benchmark share."""
 import os
-import re
 import signal
 import socket
 import subprocess
@@ -78,16 +77,3 @@ class OffScreen:
     def __exit__(self, *_):
         for process in reversed(list(self._running)):
             self.stop(process)
-
-
-def with_value(config, path, value):
-    """The text of an rviz file with a value changed: path is the keys from the outside, of which each
-    is found as the first one after the one before."""
-    place = 0
-    for key in path:
-        found = re.compile(r'(?m)^[ -]*' + re.escape(key) + r':').search(config, place)
-        if not found:
-            raise SystemExit(f'the rviz file has no {" / ".join(path)}')
-        place = found.end()
-    end = config.index('\n', place)
-    return f'{config[:place]} {value}{config[end:]}'

@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The pictures of rviz for the docs: see pictures.sh.
+
+    rviz_display.jpg  the package's own display
+    rviz_markers.jpg  the same graph as markers, which any rviz shows
+    rviz_panel.jpg    the window as it opens, with the panel; of a walk only, as a saved run has no times
+"""
+import argparse
+import json
+import os
+import subprocess
+import tempfile
+import time
+
+from demo_view import bounds, camera, with_view, without_panels
+from off_screen import NAMESPACE, OffScreen, wait_for
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+RVIZ_FOLDER = os.path.join(HERE, '..', 'rviz')
+LIFT_M = 10.0
+MAX_BYTES = 300000
+DRAW_S = 20.0  # rviz has to start, and a software renderer takes its time
+
+
+def walk(screen, bag, rate, folder):
+    """Plays a bag through the nodelets, which stay, and saves the run."""
+    env = {name: value for name, value in screen.env.items() if name != 'ROS_NAMESPACE'}
+    launch = screen.start(['roslaunch', 'mrpt_sgraphs', 'demo.launch', f'bag:={bag}',
+                           f'rate:={rate}', 'rviz:=false', f'layer_lift:={LIFT_M}'], 'launch',
+                          env=env)
+    log = os.path.join(screen.folder, 'launch.log')
+
+    def ended():
+        if launch.poll() is not None:
+            raise SystemExit(f'the launch ended before the bag did: see {log}')
+        with open(log) as text:
+            return 'process has finished cleanly' in text.read()
+
+    wait_for(ended, 7200.0, 'the bag did not end')
+    time.sleep(5.0)  # the last scans are still on their way
+    answer = subprocess.run(['rosservice', 'call', f'/{NAMESPACE}/dump', f"folder: '{folder}'"],
+                            env=env, stdout=subprocess.PIPE, text=True, check=True).stdout
+    if 'success: True' not in answer:
+        raise SystemExit(answer)
+
+
+def view_of(run):
+    with open(os.path.join(run, 'graph.json')) as text:
+        graph = json.load(text)
+    return camera(*bounds([p for wall in graph['walls'] for p in wall['polygon']]), LIFT_M)
+
+
+def picture(screen, config, out):
+    with tempfile.NamedTemporaryFile('w', suffix='.rviz', dir=screen.folder) as file:
+        file.write(config)
+        file.flush()
+        rviz = screen.rviz(file.name, os.path.basename(out) + '.rviz')
+        time.sleep(DRAW_S)
+        if rviz.poll() is not None:
+            raise SystemExit(f'rviz ended: see {screen.folder}')
+        subprocess.run(['import', '-window', 'root', '-quality', '85', out], env=screen.env,
+                       check=True)
+        screen.stop(rviz)
+    size = os.path.getsize(out)
+    print(f'{out}: {size // 1000} kB')
+    if size > MAX_BYTES:
+        raise SystemExit(f'{out} is larger than {MAX_BYTES // 1000} kB')
+
+
+def read(name):
+    with open(os.path.join(RVIZ_FOLDER, name)) as text:
+        return text.read()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument('--bag', help='run.bag of sgraphs_simulate')
+    source.add_argument('--run', help='folder with graph.json')
+    parser.add_argument('--rate', type=float, default=1.0, help='how fast the bag is played')
+    parser.add_argument('--out', default=os.path.join(HERE, '..', 'docs'))
+    given = parser.parse_args()
+    out = os.path.abspath(given.out)
+    with tempfile.TemporaryDirectory() as folder, OffScreen(folder) as screen:
+        run = given.run
+        if run:
+            screen.start(['rosrun', 'mrpt_sgraphs', 'sgraphs_publish', os.path.abspath(run),
+                          f'_layer_lift_m:={LIFT_M}'], 'publish')
+        else:
+            run = os.path.join(folder, 'run')
+            walk(screen, os.path.abspath(given.bag), given.rate, run)
+        view = view_of(run)
+        plugin, markers = read('sgraphs_plugin.rviz'), read('sgraphs.rviz')
+        picture(screen, with_view(without_panels(plugin), view),
+                os.path.join(out, 'rviz_display.jpg'))
+        picture(screen, with_view(without_panels(markers), view),
+                os.path.join(out, 'rviz_markers.jpg'))
+        if given.bag:
+            picture(screen, with_view(plugin, view), os.path.join(out, 'rviz_panel.jpg'))
+
+
+if __name__ == '__main__':
+    main()
