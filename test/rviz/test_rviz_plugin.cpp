@@ -98,13 +98,14 @@ TEST_F(Panel, SaysThatNobodyAnswers) {
 
 TEST_F(Panel, WaitsForAnAnswerWithoutStandingStill) {
   constexpr double kWork_s = 2.0;
-  ros::ServiceServer server = nh_.advertiseService<Optimize::Request, Optimize::Response>(
-      "optimize", [](Optimize::Request&, Optimize::Response& response) {
+  const boost::function<bool(Optimize::Request&, Optimize::Response&)> work =
+      [](Optimize::Request&, Optimize::Response& response) {
         ros::WallDuration(kWork_s).sleep();
         response.success = 0;
         response.message = "why it did not converge";
         return true;
-      });
+      };
+  ros::ServiceServer server = nh_.advertiseService("optimize", work);
   click("Optimize");
   QElapsedTimer timer;
   timer.start();
