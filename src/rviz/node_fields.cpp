@@ -17,8 +17,9 @@ constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
 std::string number(double value, int digits = 3) {
   std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
+  const double scale = std::pow(10.0, digits);
+  text << std::fixed << std::setprecision(digits) << std::round(value * scale) / scale + 0.0;
+  return text.str();  // plus zero: no "-0.000"
 }
 
 template <typename Vector>

@@ -82,6 +82,7 @@ inline std::vector<KeyframeWithTruth> walkWithPlanes(
   for (KeyframeWithTruth& each : keyframes) {
     Keyframe& keyframe = each.keyframe;
     keyframe.T_odom_base = T_odom_start * keyframe.T_odom_base;
+    keyframe.cloud = withoutTimes(*keyframe.cloud);  // as deskewed ones are
     planes.addScan(keyframe.cloud, keyframe.T_odom_base, true);
     keyframe.planes = planes.take();
   }
