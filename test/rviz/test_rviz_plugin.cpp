@@ -142,25 +142,34 @@ TEST_F(Panel, RemembersItsNamespace) {
 
 class Display : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "there is no screen: install xvfb";
-    render_panel_ = std::make_unique<rviz::RenderPanel>();
+  /// Once: OGRE keeps its materials as long as the program runs.
+  static void SetUpTestSuite() {
+    if (std::getenv("DISPLAY") == nullptr) return;
+    render_panel_ = new rviz::RenderPanel;
     render_panel_->resize(640, 480);
-    manager_ = std::make_unique<rviz::VisualizationManager>(render_panel_.get());
-    render_panel_->initialize(manager_->getSceneManager(), manager_.get());
+    manager_ = new rviz::VisualizationManager(render_panel_);
+    render_panel_->initialize(manager_->getSceneManager(), manager_);
     manager_->initialize();
     manager_->setFixedFrame("map");
     manager_->startUpdate();
     render_panel_->show();
+  }
+  static void TearDownTestSuite() {
+    delete manager_;
+    delete render_panel_;
+  }
+
+  void SetUp() override {
+    if (manager_ == nullptr) GTEST_SKIP() << "there is no screen: install xvfb";
     graphs_ = nh_.advertise<SituationalGraph>("display_test/graph", 1, true);
     display_ = manager_->createDisplay("mrpt_sgraphs/SituationalGraph", "graph", true);
     display_->setTopic("/display_test/graph", "");
   }
 
   void TearDown() override {
-    if (manager_) manager_->removeAllDisplays();
-    manager_.reset();
-    render_panel_.reset();
+    if (manager_ == nullptr) return;
+    manager_->getSelectionManager()->setSelection({});
+    manager_->removeAllDisplays();
   }
 
   void showAt(const SituationalGraph& msg, const Ogre::Vector3& focus, double distance_m) {
@@ -180,10 +189,13 @@ class Display : public ::testing::Test {
   }
 
   std::string status(const QString& name) const {
-    const rviz::Property* const all = display_->subProp("Status");
-    for (int k = 0; k < all->numChildren(); ++k) {
-      const rviz::Property* const line = all->childAtUnchecked(k);
-      if (line->getName() == name) return line->getValue().toString().toStdString();
+    for (int k = 0; k < display_->numChildren(); ++k) {
+      const rviz::Property* const all = display_->childAtUnchecked(k);
+      if (!all->getName().startsWith("Status")) continue;  // "Status: Ok"
+      for (int line = 0; line < all->numChildren(); ++line) {
+        const rviz::Property* const each = all->childAtUnchecked(line);
+        if (each->getName() == name) return each->getValue().toString().toStdString();
+      }
     }
     return "";
   }
@@ -207,8 +219,8 @@ class Display : public ::testing::Test {
 
   ros::NodeHandle nh_;
   ros::Publisher graphs_;
-  std::unique_ptr<rviz::RenderPanel> render_panel_;
-  std::unique_ptr<rviz::VisualizationManager> manager_;
+  static inline rviz::RenderPanel* render_panel_ = nullptr;
+  static inline rviz::VisualizationManager* manager_ = nullptr;
   rviz::Display* display_ = nullptr;  ///< The manager's.
 };
 
