@@ -15,7 +15,7 @@ import os
 import re
 import sys
 
-DISTANCE_OVER_RADIUS = 2.4  # so that a ball of that radius fills the window
+DISTANCE_OVER_RADIUS = 1.8  # so that a building with its layers fills the window
 
 
 def first_pose(tum):

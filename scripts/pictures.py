@@ -21,7 +21,11 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 RVIZ_FOLDER = os.path.join(HERE, '..', 'rviz')
 LIFT_M = 10.0
 MAX_BYTES = 300000
-DRAW_S = 20.0  # rviz has to start, and a software renderer takes its time
+START_S = 10.0  # of rviz
+LOOK_EVERY_S = 5.0
+PATIENCE_S = 180.0  # a software renderer takes its time
+ALL_BUT_THE_FRAME_RATE = '1280x760+0+0'
+SCENE_ALONE = '1248x708+16+62'  # of a window without panels
 
 
 def walk(screen, bag, rate, folder):
@@ -52,17 +56,34 @@ def view_of(run):
     return camera(*bounds([p for wall in graph['walls'] for p in wall['polygon']]), LIFT_M)
 
 
-def picture(screen, config, out):
-    with tempfile.NamedTemporaryFile('w', suffix='.rviz', dir=screen.folder) as file:
-        file.write(config)
-        file.flush()
-        rviz = screen.rviz(file.name, os.path.basename(out) + '.rviz')
-        time.sleep(DRAW_S)
+def pixels(screen, shot):
+    subprocess.run(['import', '-window', 'root', shot], env=screen.env, check=True)
+    return subprocess.run(['convert', shot, '-crop', ALL_BUT_THE_FRAME_RATE, 'rgb:-'],
+                          stdout=subprocess.PIPE, check=True).stdout
+
+
+def wait_until_drawn(screen, rviz, shot):
+    """Until nothing changes any more."""
+    time.sleep(START_S)
+    end = time.monotonic() + PATIENCE_S
+    before = None
+    now = pixels(screen, shot)
+    while now != before and time.monotonic() < end:
+        time.sleep(LOOK_EVERY_S)
         if rviz.poll() is not None:
             raise SystemExit(f'rviz ended: see {screen.folder}')
-        subprocess.run(['import', '-window', 'root', '-quality', '85', out], env=screen.env,
-                       check=True)
-        screen.stop(rviz)
+        before, now = now, pixels(screen, shot)
+
+
+def picture(screen, config, out, crop=None):
+    path = os.path.join(screen.folder, os.path.basename(out))
+    with open(path + '.rviz', 'w') as file:
+        file.write(config)
+    rviz = screen.rviz(path + '.rviz', os.path.basename(out) + '.rviz')
+    wait_until_drawn(screen, rviz, path + '.png')
+    screen.stop(rviz)
+    subprocess.run(['convert', path + '.png'] + (['-crop', crop, '+repage'] if crop else []) +
+                   ['-quality', '85', out], check=True)
     size = os.path.getsize(out)
     print(f'{out}: {size // 1000} kB')
     if size > MAX_BYTES:
@@ -84,6 +105,7 @@ def main():
     parser.add_argument('--out', default=os.path.join(HERE, '..', 'docs'))
     given = parser.parse_args()
     out = os.path.abspath(given.out)
+    os.makedirs(out, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder, OffScreen(folder) as screen:
         run = given.run
         if run:
@@ -95,9 +117,9 @@ def main():
         view = view_of(run)
         plugin, markers = read('sgraphs_plugin.rviz'), read('sgraphs.rviz')
         picture(screen, with_view(without_panels(plugin), view),
-                os.path.join(out, 'rviz_display.jpg'))
+                os.path.join(out, 'rviz_display.jpg'), SCENE_ALONE)
         picture(screen, with_view(without_panels(markers), view),
-                os.path.join(out, 'rviz_markers.jpg'))
+                os.path.join(out, 'rviz_markers.jpg'), SCENE_ALONE)
         if given.bag:
             picture(screen, with_view(plugin, view), os.path.join(out, 'rviz_panel.jpg'))
 

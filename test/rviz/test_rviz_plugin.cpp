@@ -26,7 +26,6 @@
 #include <QPushButton>
 #include <algorithm>
 #include <cstdlib>
-#include <memory>
 #include <pluginlib/class_loader.hpp>
 #include <string>
 #include <vector>
@@ -140,27 +139,35 @@ TEST_F(Panel, RemembersItsNamespace) {
   EXPECT_EQ(name_space.toStdString(), "/another_robot");
 }
 
+/// One rviz for all: its materials are there once in a program.
 class Display : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "there is no screen: install xvfb";
-    render_panel_ = std::make_unique<rviz::RenderPanel>();
+  static void SetUpTestSuite() {
+    if (std::getenv("DISPLAY") == nullptr) return;
+    render_panel_ = new rviz::RenderPanel;
     render_panel_->resize(640, 480);
-    manager_ = std::make_unique<rviz::VisualizationManager>(render_panel_.get());
-    render_panel_->initialize(manager_->getSceneManager(), manager_.get());
+    manager_ = new rviz::VisualizationManager(render_panel_);
+    render_panel_->initialize(manager_->getSceneManager(), manager_);
     manager_->initialize();
     manager_->setFixedFrame("map");
     manager_->startUpdate();
     render_panel_->show();
+  }
+
+  static void TearDownTestSuite() {
+    delete manager_;
+    delete render_panel_;
+  }
+
+  void SetUp() override {
+    if (manager_ == nullptr) GTEST_SKIP() << "there is no screen: install xvfb";
     graphs_ = nh_.advertise<SituationalGraph>("display_test/graph", 1, true);
     display_ = manager_->createDisplay("mrpt_sgraphs/SituationalGraph", "graph", true);
     display_->setTopic("/display_test/graph", "");
   }
 
   void TearDown() override {
-    if (manager_) manager_->removeAllDisplays();
-    manager_.reset();
-    render_panel_.reset();
+    if (manager_ != nullptr) manager_->removeAllDisplays();
   }
 
   void showAt(const SituationalGraph& msg, const Ogre::Vector3& focus, double distance_m) {
@@ -179,13 +186,20 @@ class Display : public ::testing::Test {
     EXPECT_TRUE(waitFor([&] { return manager_->getFrameCount() > frames + 5; }));
   }
 
-  std::string status(const QString& name) const {
-    const rviz::Property* const all = display_->subProp("Status");
-    for (int k = 0; k < all->numChildren(); ++k) {
-      const rviz::Property* const line = all->childAtUnchecked(k);
-      if (line->getName() == name) return line->getValue().toString().toStdString();
+  /// By how its name begins: that of the status goes on with its level.
+  static const rviz::Property* childNamed(const QString& name, const rviz::Property& parent) {
+    for (int k = 0; k < parent.numChildren(); ++k) {
+      if (parent.childAtUnchecked(k)->getName().startsWith(name)) {
+        return parent.childAtUnchecked(k);
+      }
     }
-    return "";
+    return nullptr;
+  }
+
+  std::string status(const QString& name) const {
+    const rviz::Property* const all = childNamed("Status", *display_);
+    const rviz::Property* const line = all == nullptr ? nullptr : childNamed(name, *all);
+    return line == nullptr ? "" : line->getValue().toString().toStdString();
   }
 
   /// Names of what is selected by a click on a place.
@@ -207,10 +221,13 @@ class Display : public ::testing::Test {
 
   ros::NodeHandle nh_;
   ros::Publisher graphs_;
-  std::unique_ptr<rviz::RenderPanel> render_panel_;
-  std::unique_ptr<rviz::VisualizationManager> manager_;
+  static rviz::RenderPanel* render_panel_;
+  static rviz::VisualizationManager* manager_;
   rviz::Display* display_ = nullptr;  ///< The manager's.
 };
+
+rviz::RenderPanel* Display::render_panel_ = nullptr;
+rviz::VisualizationManager* Display::manager_ = nullptr;
 
 TEST_F(Display, SaysWhatANodeIsThatIsClickedOn) {
   SituationalGraph msg = test::roomsMessage();
