@@ -61,7 +61,7 @@ struct KeyframeScene::Sets {
   LineSet odometry{kOdometry_m};
   LineSet loops{kLoop_m};
   LineSet condensed{kCondensed_m};
-  LineSet condensed_sights{0.0F, 0.6F};
+  LineSet condensed_sights{0.0F, 0.3F};
   LineSet sights{0.0F, 0.5F};
   LineSet ground_sights{0.0F, 0.5F};
   LineSet representatives{0.0F, 0.6F};
@@ -85,10 +85,6 @@ void KeyframeScene::add(const KeyframeNode& node) {
   index_of_[node.id] = ids_.size();
   ids_.push_back(node.id);
   places_.push_back(*drawing_->places.find(node.id));
-}
-
-bool KeyframeScene::dependsOnTheEye() const {
-  return drawing_->isThinned() || drawing_->options.keyframe_labels;
 }
 
 GraphScene KeyframeScene::seenFrom(const Eye& eye) {

@@ -21,9 +21,6 @@ class KeyframeScene {
 
   GraphScene seenFrom(const Eye& eye);
 
-  /// Whether it looks different from elsewhere.
-  bool dependsOnTheEye() const;
-
   std::size_t count() const { return ids_.size(); }
   /// By the last seenFrom().
   std::size_t shownCount() const { return shown_count_; }

@@ -16,10 +16,10 @@ namespace {
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
 std::string number(double value, int digits = 3) {
+  const bool is_zero = std::abs(value) < 0.5 * std::pow(10.0, -digits);  // not -0.000
   std::ostringstream text;
-  const double scale = std::pow(10.0, digits);
-  text << std::fixed << std::setprecision(digits) << std::round(value * scale) / scale + 0.0;
-  return text.str();  // plus zero: no "-0.000"
+  text << std::fixed << std::setprecision(digits) << (is_zero ? 0.0 : value);
+  return text.str();
 }
 
 template <typename Vector>

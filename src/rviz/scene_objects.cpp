@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -72,24 +73,37 @@ void addRibbons(const LineSet::Line& line, float width_m, const Ogre::ColourValu
   }
 }
 
-void fillLines(const LineSet& set, const Ogre::MaterialPtr& material, Ogre::ManualObject* object) {
+/// Whether a ribbon would not be wider than the line that is drawn without one, which costs less.
+bool isNarrow(const LineSet::Line& line, float width_m, const Eye& eye) {
+  constexpr double kNarrow =
+      0.0018;  // width over distance: one and a half pixels of a usual window
+  const double distance_m =
+      std::min(eye.distanceTo(line.from.cast<double>()), eye.distanceTo(line.to.cast<double>()));
+  return static_cast<double>(width_m) < kNarrow * distance_m;
+}
+
+void fillLines(const LineSet& set, const Eye& eye, const Ogre::MaterialPtr& material,
+               Ogre::ManualObject* object) {
+  std::vector<LineSet::Line> lines = set.lines;
+  const auto narrow = std::stable_partition(lines.begin(), lines.end(), [&](const auto& line) {
+    return !isNarrow(line, set.width_m, eye);
+  });
   object->clear();
-  if (set.lines.empty()) return;
-  const bool thin = set.width_m <= 0.0F;
-  object->estimateVertexCount(set.lines.size() * (thin ? 2 : 8));
-  object->begin(material->getName(), thin ? Ogre::RenderOperation::OT_LINE_LIST
-                                          : Ogre::RenderOperation::OT_TRIANGLE_LIST);
-  Ogre::uint32 vertices = 0;
-  for (const LineSet::Line& line : set.lines) {
-    const Ogre::ColourValue colour = toOgre(line.rgb, set.alpha);
-    if (!thin) {
-      addRibbons(line, set.width_m, colour, vertices, object);
+  if (narrow != lines.begin()) {
+    object->begin(material->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST);
+    Ogre::uint32 vertices = 0;
+    for (auto line = lines.begin(); line != narrow; ++line) {
+      addRibbons(*line, set.width_m, toOgre(line->rgb, set.alpha), vertices, object);
       vertices += 8;
-      continue;
     }
-    for (const Eigen::Vector3f& end : {line.from, line.to}) {
+    object->end();
+  }
+  if (narrow == lines.end()) return;
+  object->begin(material->getName(), Ogre::RenderOperation::OT_LINE_LIST);
+  for (auto line = narrow; line != lines.end(); ++line) {
+    for (const Eigen::Vector3f& end : {line->from, line->to}) {
       object->position(toOgre(end));
-      object->colour(colour);
+      object->colour(toOgre(line->rgb, set.alpha));
     }
   }
   object->end();
@@ -171,14 +185,14 @@ void SceneObjects::makeObjects() {
   }
 }
 
-void SceneObjects::show(GraphScene scene) {
+void SceneObjects::show(GraphScene scene, const Eye& eye) {
   std::swap(scene_, scene);
   makeObjects();
   scene_.points.resize(points_.size());  // what is no longer there is shown empty
   scene_.lines.resize(lines_.size());
   scene_.areas.resize(areas_.size());
   showPoints(false);
-  showLines();
+  showLines(eye);
   showAreas();
   showLabels();
 }
@@ -218,10 +232,10 @@ void SceneObjects::showPoints(bool by_node) {
   }
 }
 
-void SceneObjects::showLines() {
+void SceneObjects::showLines(const Eye& eye) {
   for (std::size_t k = 0; k < lines_.size(); ++k) {
     const LineSet& set = scene_.lines[k];
-    fillLines(set, set.alpha < 1.0F ? translucent_ : opaque_, lines_[k]);
+    fillLines(set, eye, set.alpha < 1.0F ? translucent_ : opaque_, lines_[k]);
   }
 }
 

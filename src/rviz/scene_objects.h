@@ -37,7 +37,8 @@ class SceneObjects {
   SceneObjects(const SceneObjects&) = delete;
   SceneObjects& operator=(const SceneObjects&) = delete;
 
-  void show(GraphScene scene);
+  /// As it is seen from the eye: lines that are narrow from there are drawn as such.
+  void show(GraphScene scene, const Eye& eye = {});
 
   /// Leaves out the labels that are too small to be read from there.
   void lookFrom(const Eye& eye);
@@ -55,7 +56,7 @@ class SceneObjects {
   void makeObjects();
   Ogre::ManualObject* makeObject();
   void showPoints(bool by_node);
-  void showLines();
+  void showLines(const Eye& eye);
   void showAreas();
   void showLabels();
 

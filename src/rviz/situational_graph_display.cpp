@@ -47,10 +47,11 @@ QString sizesOf(const ShownGraph& graph) {
          counted(graph.msg->factors.size(), "factor");
 }
 
-/// Not far enough for other keyframes to be thinned.
-bool isNear(const Eye& a, const Eye& b, double near_m) {
+/// Not far enough for it to be drawn in another way.
+bool isNear(const Eye& a, const Eye& b) {
+  constexpr double kMoved_m = 1.5;
   constexpr double kShare = 0.05;
-  return (a.place - b.place).norm() < kShare * near_m &&
+  return (a.place - b.place).norm() < kMoved_m &&
          std::abs(a.parallel_distance_m - b.parallel_distance_m) <=
              kShare * std::max(a.parallel_distance_m, b.parallel_distance_m);
 }
@@ -276,9 +277,9 @@ void SituationalGraphDisplay::update(float wall_dt_s, float /*ros_dt_s*/) {
   if (!placeInFixedFrame()) return;
   const std::optional<Eye> eye = this->eye();
   if (!eye) return;
-  const bool is_moved = drawn_from_ && since_drawn_s_ > kRedrawEvery_s &&
-                        !isNear(*eye, *drawn_from_, drawing_->options.near_m);
-  if (!drawn_from_ || (is_moved && keyframe_scene_->dependsOnTheEye())) draw(*eye);
+  const bool is_moved =
+      drawn_from_ && since_drawn_s_ > kRedrawEvery_s && !isNear(*eye, *drawn_from_);
+  if (!drawn_from_ || is_moved) draw(*eye);
   structure_objects_->lookFrom(*eye);
   keyframe_objects_->lookFrom(*eye);
 }
@@ -291,10 +292,8 @@ void SituationalGraphDisplay::prepare() {
 }
 
 void SituationalGraphDisplay::draw(const Eye& eye) {
-  if (!drawn_from_ || drawing_->isThinned()) {
-    structure_objects_->show(structureScene(*drawing_, eye));
-  }
-  keyframe_objects_->show(keyframe_scene_->seenFrom(eye));
+  structure_objects_->show(structureScene(*drawing_, eye), eye);
+  keyframe_objects_->show(keyframe_scene_->seenFrom(eye), eye);
   drawn_from_ = eye;
   since_drawn_s_ = 0.0;
   const std::size_t shown = keyframe_scene_->shownCount();

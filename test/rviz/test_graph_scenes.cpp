@@ -231,7 +231,6 @@ TEST(KeyframeScene, ThinsAndStaysConnected) {
   const SituationalGraph msg = rowOfKeyframes(2000);  // 100 m
   KeyframeScene scene(drawingOf(msg));
   const GraphScene seen = scene.seenFrom({{50.0, 0.0, 200.0}, 0.0});
-  EXPECT_TRUE(scene.dependsOnTheEye());
   EXPECT_EQ(scene.count(), 2000U);
   EXPECT_EQ(scene.shownCount(), seen.points[0].points.size());
   EXPECT_LT(scene.shownCount(), 200U);
@@ -258,7 +257,6 @@ TEST(GraphScenes, LeaveOutlinesOfWhatIsFarInALargeGraph) {
 TEST(KeyframeScene, ThinsNothingOfASmallGraph) {
   KeyframeScene scene(drawingOf(rowOfKeyframes(500)));
   const GraphScene seen = scene.seenFrom({{50.0, 0.0, 2000.0}, 0.0});
-  EXPECT_FALSE(scene.dependsOnTheEye());
   EXPECT_EQ(scene.shownCount(), 500U);
   EXPECT_EQ(linesIn(seen), 499U);
 }

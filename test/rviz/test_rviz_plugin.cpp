@@ -26,7 +26,6 @@
 #include <QPushButton>
 #include <algorithm>
 #include <cstdlib>
-#include <memory>
 #include <pluginlib/class_loader.hpp>
 #include <string>
 #include <vector>
@@ -140,9 +139,9 @@ TEST_F(Panel, RemembersItsNamespace) {
   EXPECT_EQ(name_space.toStdString(), "/another_robot");
 }
 
+/// One rviz for all: its materials are there once in a program.
 class Display : public ::testing::Test {
  protected:
-  /// Once: OGRE keeps its materials as long as the program runs.
   static void SetUpTestSuite() {
     if (std::getenv("DISPLAY") == nullptr) return;
     render_panel_ = new rviz::RenderPanel;
@@ -154,6 +153,7 @@ class Display : public ::testing::Test {
     manager_->startUpdate();
     render_panel_->show();
   }
+
   static void TearDownTestSuite() {
     delete manager_;
     delete render_panel_;
@@ -167,9 +167,7 @@ class Display : public ::testing::Test {
   }
 
   void TearDown() override {
-    if (manager_ == nullptr) return;
-    manager_->getSelectionManager()->setSelection({});
-    manager_->removeAllDisplays();
+    if (manager_ != nullptr) manager_->removeAllDisplays();
   }
 
   void showAt(const SituationalGraph& msg, const Ogre::Vector3& focus, double distance_m) {
@@ -188,16 +186,20 @@ class Display : public ::testing::Test {
     EXPECT_TRUE(waitFor([&] { return manager_->getFrameCount() > frames + 5; }));
   }
 
-  std::string status(const QString& name) const {
-    for (int k = 0; k < display_->numChildren(); ++k) {
-      const rviz::Property* const all = display_->childAtUnchecked(k);
-      if (!all->getName().startsWith("Status")) continue;  // "Status: Ok"
-      for (int line = 0; line < all->numChildren(); ++line) {
-        const rviz::Property* const each = all->childAtUnchecked(line);
-        if (each->getName() == name) return each->getValue().toString().toStdString();
+  /// By how its name begins: that of the status goes on with its level.
+  static const rviz::Property* childNamed(const QString& name, const rviz::Property& parent) {
+    for (int k = 0; k < parent.numChildren(); ++k) {
+      if (parent.childAtUnchecked(k)->getName().startsWith(name)) {
+        return parent.childAtUnchecked(k);
       }
     }
-    return "";
+    return nullptr;
+  }
+
+  std::string status(const QString& name) const {
+    const rviz::Property* const all = childNamed("Status", *display_);
+    const rviz::Property* const line = all == nullptr ? nullptr : childNamed(name, *all);
+    return line == nullptr ? "" : line->getValue().toString().toStdString();
   }
 
   /// Names of what is selected by a click on a place.
@@ -219,10 +221,13 @@ class Display : public ::testing::Test {
 
   ros::NodeHandle nh_;
   ros::Publisher graphs_;
-  static inline rviz::RenderPanel* render_panel_ = nullptr;
-  static inline rviz::VisualizationManager* manager_ = nullptr;
+  static rviz::RenderPanel* render_panel_;
+  static rviz::VisualizationManager* manager_;
   rviz::Display* display_ = nullptr;  ///< The manager's.
 };
+
+rviz::RenderPanel* Display::render_panel_ = nullptr;
+rviz::VisualizationManager* Display::manager_ = nullptr;
 
 TEST_F(Display, SaysWhatANodeIsThatIsClickedOn) {
   SituationalGraph msg = test::roomsMessage();
