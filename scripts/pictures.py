@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of rviz for the docs: see pictures.sh.
+"""The pictures of rviz and of the maps for the docs: see pictures.sh.
 
     rviz_display.jpg  the package's own display
     rviz_markers.jpg  the same graph as markers, which any rviz shows
     rviz_panel.jpg    the window as it opens, with the panel; of a walk only, as a saved run has no times
+    plan.svg          the plan of the first floor
+    grid.png          its grid, as move_base would see it
 """
 import argparse
+import glob
 import json
 import os
+import shutil
 import subprocess
 import tempfile
 import time
@@ -90,6 +94,14 @@ def picture(screen, config, out, crop=None):
         raise SystemExit(f'{out} is larger than {MAX_BYTES // 1000} kB')
 
 
+def maps(run, out):
+    """What a run has written of its first floor."""
+    plan, grid = [sorted(glob.glob(os.path.join(run, 'floor_*.' + ending)))[0]
+                  for ending in ('svg', 'pgm')]
+    shutil.copyfile(plan, os.path.join(out, 'plan.svg'))
+    subprocess.run(['convert', grid, os.path.join(out, 'grid.png')], check=True)
+
+
 def read(name):
     with open(os.path.join(RVIZ_FOLDER, name)) as text:
         return text.read()
@@ -122,6 +134,7 @@ def main():
                 os.path.join(out, 'rviz_markers.jpg'), SCENE_ALONE)
         if given.bag:
             picture(screen, with_view(plugin, view), os.path.join(out, 'rviz_panel.jpg'))
+        maps(run, out)
 
 
 if __name__ == '__main__':

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# The pictures of rviz in docs/, from a simulated walk or from a saved run:
+# The pictures of rviz, plan and grid in docs/, from a simulated walk or from a saved run:
 #
 #   scripts/pictures.sh [--bag run.bag [--rate 1] | --run DIR] [--out docs]
 #
