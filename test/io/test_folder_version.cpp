@@ -116,9 +116,7 @@ TEST(FolderVersion, IsNeverHalfWritten) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-      for (char letter = 'a';; letter = letter == 'z' ? 'a' : static_cast<char>(letter + 1)) {
-        writeMap(map, letter);
-      }
+      for (int k = kill_number;; ++k) writeMap(map, static_cast<char>('a' + k % 26));
     }
     std::this_thread::sleep_for(std::chrono::duration<double, std::micro>(moment_us(random)));
     ASSERT_EQ(kill(child, SIGKILL), 0);
