@@ -49,17 +49,15 @@ struct SceneOptions {
   int thin_above = 1000;        ///< Unless there are no more keyframes than this.
 };
 
-/// Spheres or boxes of one size.
+/// Spheres of one size.
 struct PointSet {
-  enum class Shape : std::uint8_t { kSphere, kBox };
   struct Point {
     Eigen::Vector3f at;
     Eigen::Vector3f rgb;
     NodeId node;  ///< That is picked by it.
   };
 
-  Shape shape = Shape::kSphere;
-  float size_m = 0.0F;  ///< Diameter or edge.
+  float size_m = 0.0F;  ///< Diameter.
   std::vector<Point> points = {};
 };
 

@@ -17,6 +17,7 @@ constexpr float kLoop_m = 0.06F;
 constexpr float kCondensed_m = 0.05F;
 constexpr double kLabelAbove_m = 0.2;
 constexpr float kLabelSize = 0.3F;       ///< In the letters of a room's label.
+constexpr std::size_t kMaxSights = 500;  ///< Of a large graph: the nearest.
 constexpr std::size_t kMaxLabels = 100;  ///< Each is an object of the renderer.
 
 const Eigen::Vector3f kGrey(0.4F, 0.4F, 0.4F);
@@ -56,8 +57,8 @@ class UniqueLines {
 }  // namespace
 
 struct KeyframeScene::Sets {
-  PointSet kept{PointSet::Shape::kSphere, kSphere_m};
-  PointSet dropped{PointSet::Shape::kSphere, kDroppedSphere_m};
+  PointSet kept{kSphere_m};
+  PointSet dropped{kDroppedSphere_m};
   LineSet odometry{kOdometry_m};
   LineSet loops{kLoop_m};
   LineSet condensed{kCondensed_m};
@@ -173,9 +174,26 @@ void KeyframeScene::addTies(const Eye& eye, Sets* sets) const {
         return odometry;
     }
   };
+  for (const Tie* tie : wantedTies(eye)) linesOf(*tie).add(shownFor(tie->from), shownFor(tie->to));
+}
+
+/// Long lines cost more than all else, and of thousands none can be followed.
+std::vector<const Tie*> KeyframeScene::wantedTies(const Eye& eye) const {
+  std::vector<const Tie*> ties;
+  std::vector<std::pair<double, const Tie*>> sights;
   for (const Tie& tie : drawing_->graph->ties) {
-    if (isWanted(tie, eye)) linesOf(tie).add(shownFor(tie.from), shownFor(tie.to));
+    if (!isWanted(tie, eye)) continue;
+    if (tie.to.layer == Layer::kKeyframe || !drawing_->isThinned()) {
+      ties.push_back(&tie);
+    } else {
+      sights.emplace_back(eye.distanceTo(*drawing_->places.find(tie.from)), &tie);
+    }
   }
+  const std::size_t count = std::min(sights.size(), kMaxSights);
+  std::stable_sort(sights.begin(), sights.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t k = 0; k < count; ++k) ties.push_back(sights[k].second);
+  return ties;
 }
 
 void KeyframeScene::addRepresentatives(Sets* sets) const {

@@ -32,6 +32,7 @@ class KeyframeScene {
   NodeId shownFor(NodeId node) const;
   bool isWanted(const Tie& tie, const Eye& eye) const;
   void addKeyframes(Sets* sets) const;
+  std::vector<const Tie*> wantedTies(const Eye& eye) const;
   void addTies(const Eye& eye, Sets* sets) const;
   void addRepresentatives(Sets* sets) const;
   std::vector<Label> labels(const Eye& eye) const;

@@ -220,8 +220,7 @@ void SceneObjects::showPoints(bool by_node) {
     const PointSet& set = scene_.points[k];
     rviz::PointCloud& cloud = *points_[k];
     cloud.clear();
-    cloud.setRenderMode(set.shape == PointSet::Shape::kBox ? rviz::PointCloud::RM_BOXES
-                                                           : rviz::PointCloud::RM_SPHERES);
+    cloud.setRenderMode(rviz::PointCloud::RM_SPHERES);
     cloud.setDimensions(set.size_m, set.size_m, set.size_m);
     buffer.resize(set.points.size());
     for (std::size_t p = 0; p < buffer.size(); ++p) {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 mrpt_sgraphs developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <cstddef>
 
 #include "graph_scene.h"
@@ -22,10 +23,9 @@ constexpr double kAboveNode_m = 1.0;
 
 /// The sets of the scene, by what is in them.
 struct Sets {
-  PointSet wall_nodes{PointSet::Shape::kBox, kWallNode_m};
-  PointSet rooms{PointSet::Shape::kBox, kRoomNode_m};
-  PointSet doorways{PointSet::Shape::kSphere, kDoorway_m};
-  PointSet floors{PointSet::Shape::kSphere, kFloorNode_m};
+  PointSet doorways{kDoorway_m};
+  PointSet floors{kFloorNode_m};
+  AreaSet boxes;  ///< The nodes of walls and rooms.
   AreaSet walls;
   AreaSet grounds;
   LineSet wall_outlines;
@@ -36,6 +36,8 @@ struct Sets {
   LineSet floor_rooms{kFloorEdge_m, 0.7F};
   LineSet stairs{kStairs_m};
 };
+
+constexpr float kShadeOfSide[] = {0.75F, 0.88F, 1.0F};  ///< By the axis that it looks along.
 
 const Eigen::Vector3f kDark(0.25F, 0.25F, 0.25F);
 const Eigen::Vector3f kStairsColour(0.8F, 0.5F, 0.1F);
@@ -52,10 +54,10 @@ class StructureScene {
   }
 
   GraphScene scene() const {
-    return {{sets_.wall_nodes, sets_.rooms, sets_.doorways, sets_.floors},
+    return {{sets_.doorways, sets_.floors},
             {sets_.wall_outlines, sets_.wall_pairs, sets_.room_outlines, sets_.room_walls,
              sets_.ways, sets_.floor_rooms, sets_.stairs},
-            {sets_.walls, sets_.grounds},
+            {sets_.walls, sets_.grounds, sets_.boxes},
             labels_};
   }
 
@@ -65,6 +67,25 @@ class StructureScene {
 
   void addPoint(NodeId node, PointSet* points) const {
     points->points.push_back({placeOf(node).cast<float>(), drawing_.palette.of(node), node});
+  }
+
+  /// Its sides are darker the less they face the sky, as if it were lit. rviz's own boxes take the
+  /// software renderer several times as long.
+  void addBox(NodeId node, float edge_m) {
+    const Eigen::Vector3f centre = placeOf(node).cast<float>();
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const float sign : {-1.0F, 1.0F}) {
+        const Eigen::Vector3f out = 0.5F * edge_m * sign * Eigen::Vector3f::Unit(axis);
+        const Eigen::Vector3f side = 0.5F * edge_m * Eigen::Vector3f::Unit((axis + 1) % 3);
+        const Eigen::Vector3f up = sign * 0.5F * edge_m * Eigen::Vector3f::Unit((axis + 2) % 3);
+        const Eigen::Vector3f rgb = kShadeOfSide[axis] * drawing_.palette.of(node);
+        const Eigen::Vector3f face = centre + out;
+        const std::array<Eigen::Vector3f, 4> corners{face - side - up, face + side - up,
+                                                     face + side + up, face - side + up};
+        sets_.boxes.triangles.push_back({{corners[0], corners[1], corners[2]}, rgb, node});
+        sets_.boxes.triangles.push_back({{corners[0], corners[2], corners[3]}, rgb, node});
+      }
+    }
   }
 
   static void addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
@@ -114,7 +135,7 @@ class StructureScene {
 
   void addWalls() {
     for (const WallNode& wall : nodes().walls) {
-      addPoint(wall.id, &sets_.wall_nodes);
+      if (!drawing_.isFar(placeOf(wall.id), eye_)) addBox(wall.id, kWallNode_m);
       addArea(wall.id, wall.extent_map, wall.plane_map, &sets_.walls);
       addOutlines(wall.id, wall.extent_map, &sets_.wall_outlines);
       if (drawing_.options.wall_labels) {
@@ -129,7 +150,7 @@ class StructureScene {
 
   void addRooms() {
     for (const RoomNode& room : nodes().rooms) {
-      addPoint(room.id, &sets_.rooms);
+      addBox(room.id, kRoomNode_m);
       addArea(room.id, room.extent_map, groundOf(room), &sets_.grounds);
       addOutlines(room.id, room.extent_map, &sets_.room_outlines);
       if (drawing_.options.room_walls && drawing_.options.walls) {

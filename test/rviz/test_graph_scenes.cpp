@@ -38,6 +38,12 @@ std::multiset<NodeId> nodesIn(const std::vector<PointSet>& sets) {
   return nodes;
 }
 
+std::set<NodeId> nodesIn(const AreaSet& set) {
+  std::set<NodeId> nodes;
+  for (const AreaSet::Triangle& triangle : set.triangles) nodes.insert(triangle.node);
+  return nodes;
+}
+
 std::size_t linesIn(const GraphScene& scene) {
   return std::accumulate(
       scene.lines.begin(), scene.lines.end(), std::size_t{0},
@@ -110,9 +116,24 @@ TEST(GraphScenes, ShowEveryNodeOnceInItsLayer) {
             (std::multiset<NodeId>{KeyframeId{0}, KeyframeId{1}, KeyframeId{2}}));
   SceneOptions options;
   options.doorways = false;  // they pick their room
-  EXPECT_EQ(
-      nodesIn(structureOf(msg, options).points),
-      (std::multiset<NodeId>{WallId{4}, WallId{9}, RoomId{2}, RoomId{5}, FloorId{0}, FloorId{1}}));
+  const GraphScene structure = structureOf(msg, options);
+  EXPECT_EQ(nodesIn(structure.points), (std::multiset<NodeId>{FloorId{0}, FloorId{1}}));
+  EXPECT_EQ(nodesIn(structure.areas[2]),
+            (std::set<NodeId>{WallId{4}, WallId{9}, RoomId{2}, RoomId{5}}));
+}
+
+TEST(GraphScenes, TurnTheSidesOfBoxesOutwards) {
+  const auto drawing = drawingOf(test::roomsMessage());
+  const GraphScene scene = structureScene(*drawing, kEye);
+  double area_m2 = 0.0;
+  for (const AreaSet::Triangle& triangle : scene.areas[2].triangles) {
+    const auto& c = triangle.corners;
+    const Eigen::Vector3f centre = drawing->places.find(triangle.node)->cast<float>();
+    const Eigen::Vector3f normal = (c[1] - c[0]).cross(c[2] - c[0]);
+    EXPECT_GT(normal.dot(c[0] - centre), 0.0F);
+    area_m2 += 0.5 * static_cast<double>(normal.norm());
+  }
+  EXPECT_NEAR(area_m2, 2.0 * 6.0 * 1.0 + 2.0 * 6.0 * 0.2 * 0.2, 1e-4);
 }
 
 TEST(GraphScenes, LiftEachLayerAboveTheOneBelow) {
@@ -131,6 +152,7 @@ TEST(GraphScenes, LiftEachLayerAboveTheOneBelow) {
     }
   }
   for (std::size_t set = 0; set < below.areas.size(); ++set) {
+    ASSERT_EQ(above.areas[set].triangles.size(), below.areas[set].triangles.size());
     const auto& triangle = below.areas[set].triangles.front();
     const float layers = static_cast<float>(triangle.node.layer);
     EXPECT_NEAR(above.areas[set].triangles.front().corners[0].z() - triangle.corners[0].z(),
@@ -140,7 +162,7 @@ TEST(GraphScenes, LiftEachLayerAboveTheOneBelow) {
 
 TEST(GraphScenes, FillWallsWithoutDoorsAndRoomsWithoutHoles) {
   const GraphScene scene = structureOf(test::roomsMessage());
-  ASSERT_EQ(scene.areas.size(), 2U);
+  ASSERT_EQ(scene.areas.size(), 3U);
   EXPECT_NEAR(areaOf(scene.areas[0]), 4.0 * 2.5 - 1.0 * 2.0, 1e-4);
   EXPECT_NEAR(areaOf(scene.areas[1]), (4.0 * 4.0 - 1.0) + 2.0 * 10.0, 1e-4);
 }
@@ -252,6 +274,29 @@ TEST(GraphScenes, LeaveOutlinesOfWhatIsFarInALargeGraph) {
   }
   const Eye near{drawing->places.lifted({2.0, 0.0, 1.0}, Layer::kWall), 0.0};
   EXPECT_FALSE(structureScene(*drawing, near).areas[0].triangles.empty());
+}
+
+TEST(KeyframeScene, ShowsTheNearestOfManySightings) {
+  SituationalGraph msg = rowOfKeyframes(2000);
+  GraphWall wall;
+  wall.normal.y = 1.0;
+  wall.distance = -4.0;
+  wall.floor = GraphKeyframe::NONE;
+  msg.walls.push_back(wall);
+  for (std::uint64_t k = 0; k < 2000; ++k) {
+    msg.factors.push_back(test::factorMsg("wall_observation", {KeyframeId{k}, WallId{0}}));
+  }
+  SceneOptions options;
+  options.odometry = false;
+  options.near_m = 60.0;
+  const Eye eye{{0.0, 0.0, 1.0}, 0.0};
+  const GraphScene nearest = KeyframeScene(drawingOf(msg, options)).seenFrom(eye);
+  EXPECT_EQ(linesIn(nearest), 500U) << "of 1199 within 60 m";
+  for (const LineSet& set : nearest.lines) {
+    for (const LineSet::Line& line : set.lines) EXPECT_LT(line.from.x(), 25.0F);
+  }
+  options.thin_above = 2000;
+  EXPECT_EQ(linesIn(KeyframeScene(drawingOf(msg, options)).seenFrom(eye)), 2000U);
 }
 
 TEST(KeyframeScene, ThinsNothingOfASmallGraph) {
